@@ -47,7 +47,6 @@ class Way:
 
 @dataclass
 class Answer:
-    """Formulations that reach a level in one quantity or in all quantities of a point."""
     quantity: str
     level: float
     best: list = field(default_factory=list)
@@ -82,14 +81,11 @@ def verdict_of(series, quantity):
 
 
 def error_of(mesh, quantities):
-    """Returns the error of the largest magnitude among these quantities, with its sign, or NaN if an error is missing."""
     errors = [mesh.errors.get(q, math.nan) for q in quantities]
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
 
 def first_within(series, quantity, level):
-    """Returns the number of elements of the coarsest mesh for which the errors of that mesh and of all finer meshes are
-    within the level, or None if there is no such mesh."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.errors.get(quantity, math.nan)) <= level:
@@ -107,8 +103,6 @@ def reach(series, v, level):
 
 
 def verdicts_on(series, quantities):
-    """Returns the verdicts on all these quantities, or None if the formulation was not run or one of the quantities has
-    no reference value for its theory."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
@@ -192,8 +186,6 @@ def differ(a, b):
 
 
 def front(point, quantity):
-    """Returns [(series, mesh)] of the meshes of ranked formulations for which no other mesh is better in both time and
-    error, sorted by time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
@@ -206,8 +198,6 @@ def front(point, quantity):
 
 
 def failures(point):
-    """Returns [(series, mesh, reason, quantities without a value)] of the runs that failed or have no value of a
-    quantity."""
     out = []
     for series in point.series:
         for mesh in series.meshes if not series.missing else []:
@@ -221,24 +211,18 @@ def failures(point):
 
 
 def savings(point):
-    """Returns [(series, mesh)] of the runs that were also timed without elimination of degrees of freedom."""
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
-
-# Formulations of lowest cost in every case, for the heat map and the first page.
 
 
 @dataclass
 class CaseLine:
-    """A case at its default parameters, with the answer at each level for all its quantities together."""
-
     case: object  # data.Case
     quantities: list  # the quantities with a reference value
     found: dict  # level -> answers.Answer
 
 
 def line_of_case(case):
-    """Returns the CaseLine of a case, or None if no quantity has a reference value at the default parameters."""
     point = case.points[0]
     names = judged(point)
     if not names:

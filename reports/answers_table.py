@@ -27,7 +27,6 @@ ASKED = 4  # number of leading columns that describe the request; the other colu
 
 
 def asked_of(point):
-    """Returns the requests at a point: all quantities together if there are several, then each quantity alone."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
@@ -78,7 +77,6 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """Returns an answer as text."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -148,8 +146,6 @@ if __name__ == "__main__":
     main()
 
 
-# Page of answers for a tolerance that the reader selects, with tables for download.
-
 NAVIGATION = [("answers.html", "answers")]
 
 
@@ -165,8 +161,6 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if one of them has no
-    value."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],

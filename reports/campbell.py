@@ -27,7 +27,6 @@ def finest(look, case, parameters, key):
 
 
 def truth(look, case, parameters, quantity):
-    """Returns the stored exact value of a quantity, or NaN."""
     point = look.points.get((case, canonical(parameters)))
     return next((v.truth for s in (point.series if point else [])
                  for v in s.verdicts if v.quantity == quantity and v.truth_kind == "exact"),
@@ -35,7 +34,6 @@ def truth(look, case, parameters, quantity):
 
 
 def draw_across(site, look):
-    """Draws flap and lag frequencies, the exact values, and multiples of the angular velocity."""
     mesh = finest(look, CASE, ACROSS, KEY)
     if mesh is None or "flap_1_curve" not in mesh.curves:
         return None
@@ -68,8 +66,7 @@ def draw_across(site, look):
 
 
 def draw_along(site, look):
-    """Draws the frequencies of an unsymmetric shaft in the rotating frame and, below them, its growth rate. The unstable
-    range between the critical speeds is shaded."""
+    """The unstable range between the critical speeds is shaded."""
     mesh = finest(look, CASE, ALONG, KEY)
     if mesh is None or "whirl_1_curve" not in mesh.curves:
         return None
@@ -114,7 +111,6 @@ def channel_at(speed, w=1.0):
 
 
 def draw_channel(site, look):
-    """Draws the load against the deflection at several angular velocities (J Fig. 13), with the known exact points."""
     figure, ax = plt.subplots(figsize=(7.2, 4.8))
     drawn = False
     for speed, shade in zip(SPEEDS, np.linspace(0.75, 0, len(SPEEDS))):
@@ -157,7 +153,7 @@ def channel_rows(look):
 
 
 def orders(look, parameters, quantities):
-    """Yields (formulation, [(error of the finest mesh, order)]) at one point. The list has an entry for each quantity."""
+    """Yields (formulation, [(error of the finest mesh, order)]) at one point."""
     point = look.points.get((CASE, canonical(parameters)))
     for series in point.series if point else []:
         found = [next((v for v in series.verdicts if v.quantity == q), None) for q in quantities]

@@ -11,13 +11,9 @@ from reports.structure_drawing import describe, draw, scene
 from reports.site import ROOT
 from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
-# The scene on the page of a case: the drawing, its sections, and a description.
-
 
 @dataclass
 class Drawing:
-    """The drawing of a scene. `figure` and `sections` are Images. `sections` is None if no section has a shape.
-    `counts` describes the numbers of parts. `lines` describes the scene, [(heading, lines)]."""
     figure: object
     sections: object
     counts: str
@@ -25,7 +21,6 @@ class Drawing:
 
 
 def drawing(site, case):
-    """Returns the drawing of the first parameter point, or None if the results contain no scene for it."""
     read = scene.read(case.points[0].scene)
     if read is None:
         return None
@@ -34,8 +29,6 @@ def drawing(site, case):
                    site.image(beside, f"{case.name}_sections", tight=False) if beside else None,
                    describe.counts(read), describe.describe(read))
 
-
-# Quantities of a parameter point: reference values with their digits, and verdicts in a matrix.
 
 MOST_DIGITS = 15
 
@@ -71,7 +64,6 @@ def digits_of(value, uncertainty):
 
 
 def truths_of(point, name):
-    """Returns the distinct reference values of a quantity that are used in verdicts on formulations."""
     out = {}
     for series in point.series:
         v = answers.verdict_of(series, name)
@@ -84,7 +76,6 @@ def truths_of(point, name):
 
 
 def quantities(point):
-    """Returns the quantities of a point, in the order of the case."""
     curves = {q for s in point.series for m in s.meshes for q in m.curves}
     names = dict.fromkeys([*point.meanings, *point.units])
     return [Quantity(name, point.units[name], point.meanings.get(name, ""),
@@ -101,8 +92,6 @@ class Cell:
 
 
 def away(v):
-    """Returns a list with the relative deviation of a limit from the value of another model as text, or [] if it is
-    unknown."""
     if not math.isfinite(v.model_error):
         return []
     return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
@@ -128,7 +117,6 @@ def matrix(point):
 
 
 def tally_of(point):
-    """Returns [(kind, number)] of the verdicts of a point, from good to bad."""
     counts = {}
     for series in point.series:
         for v in series.verdicts:
@@ -143,7 +131,6 @@ MOST_PANELS = 6  # largest number of panels in the figure of the other quantitie
 # Largest number of verdicts on one page. With more verdicts, the other parameter points have separate pages.
 MOST_ROWS = 1500
 
-# Result of question_of() without figures.
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
            "left_out": []}
 
@@ -165,7 +152,6 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Returns True if an error of the quantity exceeds round-off."""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
@@ -201,7 +187,6 @@ def figures_of(site, case, index):
 
 
 def cost_of(cell):
-    """Returns the cost of a cell of table_of() for sorting, which is infinite if the cost is unknown."""
     return cell[0].cost if math.isfinite(cell[0].cost) else math.inf
 
 
@@ -218,14 +203,13 @@ def table_of(point, quantity):
 
 
 def cheapest_of(point):
-    """Returns [(quantity, {level: answers.Answer})]. If there are several quantities, all together come first."""
+    """If there are several quantities, all together come first."""
     names = answers.judged(point)
     wanted = ([answers.ALL] if len(names) > 1 else []) + names
     return [(q, {level: answers.answer(point, q, level) for level in LEVELS}) for q in wanted]
 
 
 def limits_of(point):
-    """Returns [(quantity, [(formulation, verdict)])] of quantities on which no formulation has a verdict."""
     rows = {}
     for s in point.series:
         for v in s.verdicts:
@@ -245,7 +229,6 @@ def verdicts_of(point, index):
 
 
 def causes_of(point):
-    """Returns [(entry of the list of known deviations, cause of the entry)] for the verdicts of a point."""
     return sorted({v.finding: v.cause for s in point.series for v in s.verdicts
                    if v.finding and not s.missing}.items())
 
@@ -277,12 +260,10 @@ def rows_of(point):
 
 
 def own_pages(case):
-    """Returns True if parameter points after the first have separate pages."""
     return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
 
 
 def page_of(case, index):
-    """Returns the address of a parameter point: its own page, or an anchor on the page of its case."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"
@@ -321,8 +302,6 @@ def tasks(site):
     return [functools.partial(write_sheets, site),
             *(functools.partial(write, site, case) for case in site.cases)]
 
-
-# A convergence report for printing, with every case on an A4 sheet.
 
 
 def sheet(site, case):

@@ -31,7 +31,6 @@ def points_of(points, measure):
 
 
 def read(path):
-    """Returns the stored results of `beamwork element-test`, or None if there are none."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None
@@ -43,12 +42,10 @@ def read(path):
 
 
 def stored(site):
-    """Returns the record of element tests in the results, or None."""
     return read(site.results)
 
 
 def shown(site):
-    """Returns the element reports of the formulations in the results."""
     record = stored(site)
     if record is None:
         return []
@@ -61,12 +58,10 @@ def present(site):
 
 
 def names(site):
-    """Returns the formulations that have an element report."""
     return {c["formulation"] for c in shown(site)}
 
 
 def percent(error):
-    """Formats an error as `beamwork element-test` prints it."""
     if error is None:
         return "–"
     size = 100 * abs(error)
@@ -100,7 +95,6 @@ class Certificate:
 
 
 def curve(site, panel, certificate, one, line, columns):
-    """Draws the errors of one measure in a panel."""
     points = [(x, abs(e)) for x, e in zip(one["at"], one["error"]) if e is not None]
     if not points:
         return
@@ -110,8 +104,6 @@ def curve(site, panel, certificate, one, line, columns):
 
 
 def draw(site, certificate):
-    """Draws errors of locking tests over thickness / length, and errors of convergence tests over the number of
-    elements."""
     chart = Chart(2, (330, 200), apart=True)
     thin = chart.panel("locking", "thickness / length", "relative error")
     fine = chart.panel("convergence", "elements", "", whole=True, like=thin)

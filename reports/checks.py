@@ -10,12 +10,10 @@ from reports.site import ROOT
 from reports.verdicts import count_verdicts
 
 NAVIGATION = [("checks.html", "checks"), ("environment.html", "environment")]
-# Formulations that converge to the exact beam theory.
 CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
-    """Returns the JSON file `name` that another make target wrote next to the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
@@ -74,7 +72,6 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages by formulation, by groups of formulations, and by case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -108,9 +105,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# Page about the programs and the machine of the results, and about the measurement of times.
-
-OUTCOME = ("outcome", "sentence")  # attributes of the run that the first page shows
+OUTCOME = ("outcome", "sentence")
 # (make command, files that the command writes next to the results, what it adds to the report)
 ADDS = (
     ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
@@ -132,13 +127,11 @@ GROUPS = (
 
 
 def planted(site):
-    """Returns the rows that `make lab L=bench-check` wrote next to the results, or []."""
     path = pathlib.Path(site.results).parent / "bench_check.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
 
 
 def more(site):
-    """Returns [(command, what it adds to the report)] for the commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]

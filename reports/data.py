@@ -21,13 +21,11 @@ BENCH = "experiments/bench"  # group of the times, which version 2 stored in a s
 
 
 def column(values):
-    """Returns a column as a list of plain numbers or strings."""
     return [value.decode()
             for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
 
 
 def rows(group, name):
-    """Returns [{column: value}] of a table."""
     table = group[name][()]
     return [
         dict(zip(table.dtype.names, row))
@@ -51,7 +49,6 @@ def read_clock(row, prefix, setup, solve):
 
 
 def read_timings(group, meshes):
-    """Replaces the times of single runs by those of a benchmark."""
     for row in rows(group, "timings"):
         mesh = meshes.get(of_mesh(row))
         if mesh is None:
@@ -123,7 +120,6 @@ def mark(series, declared):
 
 
 def read_assumptions(group):
-    """Returns the assumptions about sections, {point: [(kind, text)]}."""
     found = {}
     for row in rows(group, "assumptions") if "assumptions" in group else []:
         found.setdefault(row["point"], []).append((row["kind"], row["text"]))
@@ -159,8 +155,7 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Stores in each point its scene and the descriptions of its quantities. Returns the rows that describe the
-    parameters of the case."""
+    """Returns the rows that describe the parameters of the case."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
@@ -181,7 +176,6 @@ def of_root(file):
 
 
 def read_case(path, name, bench=None, root=of_root):
-    """Reads a case, with the times of a benchmark if one is given."""
     with h5py.File(path) as file:
         own = root(file)
         group = own["cases"][name]
@@ -200,7 +194,6 @@ def read_case(path, name, bench=None, root=of_root):
 
 
 def read_bench(path, name, meshes):
-    """Copies the times of a benchmark to the runs of the case `name`."""
     with h5py.File(path) as file:
         cases = root_of_bench(file)["cases"]
         if name in cases:
@@ -208,7 +201,6 @@ def read_bench(path, name, meshes):
 
 
 def read_about(path, root=of_root):
-    """Returns the environment {name: string} in which a results file was made."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
@@ -277,7 +269,6 @@ def declarations_in(file):
 
 
 def read_declarations(path):
-    """Returns the declarations of a results file."""
     with h5py.File(path) as file:
         return declarations_in(file)
 
@@ -295,7 +286,6 @@ def read_glossary(path):
 
 
 def read_truth_counts(path):
-    """Returns {kind: rows} of the packed reference values."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             counts = {}
@@ -307,11 +297,8 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Values of other programs (`beamwork import`). They are stored in Point.others and not counted as formulations.
-
 
 def truths_of(point):
-    """Returns {quantity: reference value} of the verdicts at a point."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
@@ -345,7 +332,6 @@ def beside_named(point, key):
 
 
 def style_beside(index):
-    """Returns the style of values of other programs: grey, hollow, dotted."""
     return {
         "color": "currentColor", "marker": "sDv^<>ph"[index % 8], "hollow": True,
         "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6, "alpha": 0.85 - 0.08 * (index % 8)

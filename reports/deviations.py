@@ -14,7 +14,6 @@ NAVIGATION = [("deviations.html", "deviations"), ("errata.html", "errata")]
 
 
 def slug(title):
-    """Returns the anchor of a heading, in the form that the toc extension of markdown uses."""
     return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
 
 
@@ -24,7 +23,6 @@ def headings():
 
 
 def link_of(proof, titles):
-    """Returns the location of a proof in this report, or '' if the proof is only a test or a program."""
     if "ERRATA" not in proof:
         return ""
     named = next((t for t in titles if t.lower() in proof.lower()), None)
@@ -63,7 +61,7 @@ def left(v):
 
 
 def line(rule, rows, titles):
-    """Returns the line of an entry. `rows` are the verdicts of the entry, including those that are not counted."""
+    """`rows` are the verdicts of the entry, including those that are not counted."""
     own = [r for r in rows if r.standing == verdicts.OWN]
     seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]
@@ -81,7 +79,6 @@ def line(rule, rows, titles):
 
 
 def unexplained(rows):
-    """Returns [((formulation, verdict), number)] for the counted verdicts that are not as expected."""
     found = {}
     for r in rows:
         if not r.verdict.as_expected and r.standing == verdicts.OWN:
@@ -130,11 +127,8 @@ def tasks(site):
     return [functools.partial(page, site) for page in pages]
 
 
-# Experiments on the causes of known deviations, from a file next to the results.
-
 
 def verdict_of(study):
-    """Returns the conclusion of the experiments on one verdict as text."""
     gone = [e for e in study["experiments"] if e["gone"]]
     if any(e["kind"] == "finer" for e in gone):
         return "the meshes of the verdict are too coarse"

@@ -40,7 +40,6 @@ def opened(path):
 
 
 def holds(path, name):
-    """Returns True if the file contains a group of the experiment."""
     if not os.path.exists(path):
         return False
     with opened(path) as file:
@@ -61,7 +60,6 @@ def read(path, name):
 
 
 def made(path):
-    """Returns [(experiment, attributes)] of all experiments in the file."""
     if not os.path.exists(path):
         return []
     with opened(path) as file:
@@ -69,7 +67,6 @@ def made(path):
 
 
 def grouped(found, *names):
-    """Returns {values of these columns: rows}."""
     out = {}
     for row in found:
         out.setdefault(tuple(row[name] for name in names), []).append(row)
@@ -77,7 +74,6 @@ def grouped(found, *names):
 
 
 def is_newer(path, name, program):
-    """Returns True if the group was written after the program was built."""
     run = dict(made(path)).get(name)
     if run is None:
         return False

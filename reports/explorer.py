@@ -20,7 +20,6 @@ AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work 
 
 
 def listed(values, digits):
-    """Returns numbers with these significant digits as one string."""
     text = " ".join(f"{v:.{digits}g}" if v is not None and math.isfinite(v) else "-"
                     for v in values)
     return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
@@ -100,7 +99,6 @@ def write_case(site, case):
 
 
 def looks(site):
-    """Returns {formulation: [colour, SVG element of its marker, dashes]}."""
     out = {}
     for key in site.styles.order:
         look = site.styles.of(key)

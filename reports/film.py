@@ -81,7 +81,6 @@ def words_of(summary, s):
 
 
 def page(path, wanted=None):
-    """Returns the film as the text of a page."""
     name, summary, point = chosen(path, wanted)
     s = shapes.read_file(path, name, point)
     first = shapes.frames_of(s)[0]

@@ -13,14 +13,11 @@ from reports.figures.chart import Chart
 from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 
-# The description of a formulation, with text and equations, from elements/NAME.md.
-
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"\$([^$\n]+?)\$")
 
 
 def rendered(text):
-    """Returns Markdown with equations between dollar signs ($ in a line, $$ on separate lines) as HTML."""
     equations = []
 
     def keep(found, display):
@@ -36,7 +33,6 @@ def rendered(text):
 
 
 def sections(text):
-    """Returns [(heading, text)] of the parts that begin with a second-level heading."""
     parts = re.split(r"^## (.+)$", text, flags=re.M)[1:]
     return [(h.strip(), body.strip()) for h, body in zip(parts[::2], parts[1::2])]
 
@@ -60,8 +56,6 @@ def explanation_of(name, pages):
             for h, body in sections(path.read_text(encoding="utf-8"))]
 
 
-# Errors of a formulation against the number of elements, for the cases with the smallest and the largest error.
-
 FLOOR = 1e-12  # errors below this value are drawn at this value
 TITLES = ("least", "largest")
 WRONG_LIMITS = ("wrong limit", "wrong limit, as predicted")
@@ -75,8 +69,7 @@ def curve(series, quantity):
 
 
 def candidates(found):
-    """Returns [(error on the finest mesh, case name, quantity, (case, point, series))] for series with at least three
-    meshes. The quantities of a case are the first one with a verdict and those with a wrong limit."""
+    """The quantities of a case are the first one with a verdict and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -89,7 +82,6 @@ def candidates(found):
 
 
 def extremes(found):
-    """Returns [(case, point, series, quantity)] with the smallest and the largest error on the finest mesh."""
     known = candidates(found)
     chosen = {known[i][:3]: (*known[i][3], known[i][2]) for i in (0, -1)} if known else {}
     return list(chosen.values())
@@ -114,14 +106,12 @@ def draw_extremes(site, key, items, name):
 
 
 NAVIGATION = [("cases.html", "all cases"), ("formulations.html", "all formulations")]
-CHOICE = "When to choose it"  # heading of the section to which measurements are added
+CHOICE = "When to choose it"
 ANALYSES = ("statics", "vibration", "buckling")
-# Verdicts that more elements do not change.
 WRONG = ("wrong limit, as predicted", "wrong limit", "refused", "diverged")
 
 
 def split(key):
-    """Returns (name, options) from the key of a formulation."""
     name, _, options = key.partition(":")
     return name, options
 
@@ -132,7 +122,6 @@ def options_of(declared):
 
 
 def example(name, choices):
-    """Returns an example of the formulation with one option, or without options if it has none."""
     for option, values, default, _ in choices:
         other = next((v for v in values.split("|") if v != default), None)
         if other and "|" in values:
@@ -147,12 +136,10 @@ def standing(series):
 
 
 def defaults(cases, key):
-    """Returns [(case, point, series)] at the default parameters of every case with this formulation."""
     return [(c, c.points[0], s) for c in cases for s in c.points[0].series if s.key == key]
 
 
 def rules(rows, known, titles):
-    """Returns the known deviations that were observed, with their verdicts, the worst verdict and the cases."""
     found = {}
     for row in rows:
         if row.verdict.finding:
@@ -161,7 +148,6 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # on the page of a formulation with a misprint, verdicts that equal those of the corrected form also count
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -185,7 +171,6 @@ def median(values):
 
 
 def all_ways(cases):
-    """Returns {(case, level): answers.Answer for all quantities with a reference value at the default parameters}."""
     return {(c.name, level): answers.answer(c.points[0], answers.ALL, level)
             for c in cases for level in LEVELS}
 
@@ -239,8 +224,6 @@ def table(found):
 
 @dataclass(frozen=True)
 class Known:
-    """Data for the pages of all formulations, collected once."""
-
     rows: list  # verdicts.TallyRow for every verdict
     rules: list  # entries of the list of known deviations
     declared: dict  # formulation -> row of /declarations
@@ -256,7 +239,6 @@ def gather(site):
 
 
 def pages_of(site):
-    """Returns {name: page} of cases and formulations, for links in descriptions."""
     pages = {c.name: f"{c.name}.html" for c in site.cases}
     return {**pages, **{key: f"{file_of(key)}.html" for key in site.styles.order}}
 
@@ -314,8 +296,6 @@ def tasks(site):
             *(functools.partial(write, site, key, known) for key in site.styles.order)]
 
 
-# Two short pages: all cases, and all formulations.
-
 
 def counts(rows):
     """Returns [(verdict, number)] of the rows with a verdict, from bad to good. Aliases of quantities are not counted."""
@@ -327,7 +307,6 @@ def counts(rows):
 
 
 def grouped(rows, name):
-    """Returns {value of the attribute `name`: rows}."""
     found = {}
     for row in rows:
         found.setdefault(getattr(row, name), []).append(row)
@@ -335,8 +314,6 @@ def grouped(rows, name):
 
 
 def wrong_in(cases, key):
-    """Returns the cases in which the worst verdict on the formulation at the default parameters is one that more elements
-    do not change."""
     found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
     return [name for name, v in found if v is not None and v.verdict in WRONG]
 

@@ -20,12 +20,10 @@ def present(site):
 
 @functools.lru_cache(maxsize=4)
 def terms(truths):
-    """Returns [{term, also, group, meaning, see}] in the order of the file, or [] if the file has no glossary."""
     return data.read_glossary(truths)
 
 
 def anchor(term):
-    """Returns the anchor of a term on the page."""
     return re.sub(r"[^a-z0-9]+", "-", term.lower()).strip("-") or "term"
 
 
@@ -34,7 +32,6 @@ def split(text):
 
 
 def places(rows):
-    """Returns {term or other name, in lower case: anchor}."""
     found = {}
     for row in rows:
         for name in (row["term"], *split(row["also"])):
@@ -56,7 +53,6 @@ def linker(truths):
 
 
 def grouped(rows):
-    """Returns [(group, rows)] in the order of GROUPS."""
     names = [*GROUPS, *dict.fromkeys(r["group"] for r in rows if r["group"] not in GROUPS)]
     return [(name, [r for r in rows if r["group"] == name]) for name in names
             if any(r["group"] == name for r in rows)]

@@ -23,8 +23,6 @@ PHASES = ("rad", "deg")  # units of phases over frequency
 
 
 class Curve:
-    """The curve of a quantity computed with one formulation."""
-
     def __init__(self, solution, entry):
         self.quantity, self.unit = entry["quantity"], entry["unit"]
         self.x_name, self.x_unit = entry["x_name"], entry["x_unit"]
@@ -39,7 +37,6 @@ class Curve:
 
     @property
     def decades(self):
-        """Returns True if the vertical axis of the curve is logarithmic."""
         return (self.steady and self.unit not in PHASES and
                 all(b > 0 for a, b in zip(self.x, self.y) if a > 0))
 
@@ -96,7 +93,6 @@ def draw_panel(axes, curves):
 
 
 def share(panels, axes):
-    """Sets the same horizontal scale in panels with equal abscissae."""
     for i, (curves, one) in enumerate(zip(panels, axes)):
         for k in range(i):
             if panels[k][0].x_name == curves[0].x_name and (

@@ -10,8 +10,6 @@ from reports import answers, problems, profiles, verdicts
 from reports.data import text
 from reports.profiles import panel
 
-# Topic of a case, determined from the analyses of its scene.
-
 # A case belongs to the first of these kinds for which it has an analysis.
 KINDS = (
     ("stiffness and compliance", ("compliance",)),
@@ -27,7 +25,6 @@ ENTRY = re.compile(r"^  [^\s:]+: \{(\w+)[:}]", re.M)
 
 
 def analyses_in(scene):
-    """Returns the kinds of analysis in a scene file that the program wrote."""
     block = re.search(r"^analyses:\n((?:  .*\n)*)", scene, re.M)
     return ENTRY.findall(block.group(1)) if block else []
 
@@ -58,9 +55,6 @@ def grouped_by_kind(cases, path):
     return sorted(groups.items(), key=lambda item: order.index(item[0]))
 
 
-# Quantities without a reference value: the limit on which formulations agree, and the distance of each formulation from
-# it.
-
 AGREED = "agreement"  # kind of a value in the results on which at least two families of formulations agree
 
 
@@ -80,7 +74,6 @@ class AgreedRow:
 
     @property
     def farthest(self):
-        """Returns the formulation whose limit is farthest from `value`, or None if all limits equal it."""
         key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
         return key if self.errors[key] else None
 
@@ -126,13 +119,10 @@ def rows_agreed(cases, level):
     return found
 
 
-# Data for three sentences on speed, verdicts and reference values. The template contains the text.
-
 NAMED = 3  # largest number of cases that a sentence names
 
 
 def ahead(values):
-    """Returns the formulations whose share, rounded to whole percent, equals the largest share, and the largest share."""
     most = max(values.values())
     return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
 
@@ -228,8 +218,6 @@ def formulation_rows(cases):
 
 
 def table_of(case):
-    """Returns [(request, answers.Answer)] at the defaults, for the first quantity with a reference value and for all
-    quantities together."""
     point = case.points[0]
     names = answers.judged(point)
     asked = [(names[0], names[0])] if names else []

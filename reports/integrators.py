@@ -10,10 +10,10 @@ from reports.data import Unreadable
 
 INTEGRATOR_RUNS = "integrators.json"
 KEPT = 1e-11  # largest energy-balance error, relative to the largest energy, of a run that conserves energy
-ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
+ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")
 KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
 NONE_WANTED = "none is wanted"  # reason stored if no reference is requested
-STIFFENING = "stiffening"  # name of the case parameter that multiplies the axial stiffness
+STIFFENING = "stiffening"
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,7 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """Cost of an integrator for an error level. `cost` [s] is interpolated to exactly this error, and `run` is a run
-    within the level."""
+    """`cost` [s] is interpolated to exactly this error, and `run` is a run within the level."""
 
     scheme: str
     cost: float
@@ -92,7 +91,6 @@ class Problem:
 
     @property
     def structure(self):
-        """Returns (case, parameters except the stiffening, formulation, elements)."""
         rest = [p for p in self.parameters.split(";") if not p.strip().startswith(STIFFENING)]
         return self.case, ";".join(rest), self.formulation, self.elements
 
@@ -136,7 +134,6 @@ def ways_of(rows, runs):
 
 
 def stiffening_in(parameters):
-    """Returns the factor on the axial stiffness from `name=value;...`, or 1 if it is not given."""
     said = dict(p.strip().split("=", 1) for p in parameters.split(";") if p.strip())
     return float(said.get(STIFFENING, 1))
 
@@ -195,7 +192,6 @@ class Record:
 
 
 def load(path):
-    """Returns the contents of a JSON file, or None if it does not exist."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -232,9 +228,6 @@ def read(path):
     beside = os.path.join(os.path.dirname(os.path.abspath(path)), INTEGRATOR_RUNS)
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
-
-# Finds the integrator and the step that reach a level of the time-integration error at the lowest cost, and the evidence
-# for this result.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 100
@@ -310,7 +303,6 @@ def orders(problems):
 
 
 def judged(problems):
-    """Returns the problems for which time-integration errors are known."""
     return [p for p in problems if not p.reference and any(r.known for r in p.runs)]
 
 

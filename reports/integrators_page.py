@@ -92,7 +92,6 @@ def keeping(found):
 
 
 def drift(ways):
-    """Describes the energy-balance errors of the runs of lowest cost."""
     known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
     return f"energy drifts by {between(known, '{:.0e}')}" if known else ""
 
@@ -131,8 +130,6 @@ def verdicts(rows):
     return told + (f"{off} not as expected." if off else "all as expected.")
 
 
-# Figures of integrators: work-precision diagrams and performance profiles.
-
 SIZE, ONE, PROFILE = (250, 190), (420, 250), (250, 165)
 COLUMNS = 3
 FLOOR = 1e-14  # smallest drawn error
@@ -140,7 +137,6 @@ SLOPES = (2, 5)  # orders with a reference line
 
 
 def slope_lines(panel, runs):
-    """Draws dotted lines whose slopes are the orders in SLOPES, starting at the upper left run."""
     costs = [r.cost for r in runs]
     low, high = min(costs), max(costs)
     errors = [max(abs(r.error), FLOOR) for r in runs]
@@ -155,7 +151,6 @@ def slope_lines(panel, runs):
 
 
 def draw_scheme(site, panel, problem, scheme):
-    """Draws the curve of a scheme, separately for equal steps and for tolerance-controlled steps."""
     for own in integrators.series(problem, scheme):
         known = [r for r in own if r.known and r.cost > 0]
         if not known:
@@ -170,7 +165,6 @@ def draw_scheme(site, panel, problem, scheme):
 
 
 def work_precision(site, case, problems):
-    """Returns the Image of a case with a panel for each formulation, or None if no cost and error are known."""
     told = [p for p in integrators.judged(problems) if any(r.known and r.cost > 0 for r in p.runs)]
     if not told:
         return None
@@ -188,7 +182,6 @@ def work_precision(site, case, problems):
 
 
 def profile(site, problems, level):
-    """Returns the Image of a performance profile, or None if no run is within the level."""
     curves = integrators.profile(problems, level)
     if not any(math.isfinite(c[-1]) and c[-1] > 0 for c in curves.values()):
         return None
@@ -227,7 +220,6 @@ def map_text(x, y, words, more=""):
 
 
 def short(value):
-    """Returns a power of ten as text, such as 1e6."""
     return (f"{value:g}" if value < 1e4 else f"{value:.0e}").replace("e+0", "e").replace("e+", "e")
 
 
@@ -239,7 +231,6 @@ def field(x, y, fate, words):
 
 
 def map_panel(scheme, found, steps, stiffenings, left, top):
-    """Returns the panel of one integrator."""
     out = map_text(left + WIDE * len(steps) / 2, top - 9, scheme, 'font-size="12"')
     for j, stiffening in enumerate(stiffenings):
         for i, step in enumerate(steps):
@@ -303,12 +294,10 @@ def present(site):
 
 
 def noise_of(site):
-    """Returns the cost ratio below which costs tie."""
     return float(site.about.get("cost_noise", 1.25))
 
 
 def rows_of(problems, noise):
-    """Returns [(problem, {level: Answer})] of the table of lowest costs."""
     return [(p, {level: integrators.answer(p, level, noise) for level in integrators.LEVELS})
             for p in problems]
 
@@ -332,7 +321,6 @@ def maps_of(problems):
 
 
 def unmeasured(problems):
-    """Returns the problems whose errors were requested but are unknown."""
     return [p for p in problems if p.reference and p.reference != integrators.NONE_WANTED]
 
 
@@ -348,7 +336,6 @@ def failures_of(problems):
 
 
 def diagrams_of(site, problems):
-    """Returns [(case, parameters, Image)] of the work-precision diagrams."""
     found = [(case, parameters, work_precision(site, f"{case}_{i}", own))
              for i, ((case, parameters), own) in enumerate(integrators.by_case(problems).items())]
     return [one for one in found if one[2]]

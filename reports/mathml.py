@@ -44,15 +44,12 @@ def operator(sign, stretchy=False):
 
 
 def bold(letters):
-    """Returns the letters as bold mathematical letters of Unicode."""
     first = {"A": 0x1D400, "a": 0x1D41A}
     return "".join(chr(first["A"] + ord(c) - ord("A")) if c.isupper() else chr(
         first["a"] + ord(c) - ord("a")) for c in letters)
 
 
 class Parser:
-    """Reads one equation from left to right."""
-
     def __init__(self, tex):
         self.tex = tex
         self.tokens = [t for t in TOKEN.findall(tex) if not t.isspace()]
@@ -72,7 +69,6 @@ class Parser:
         return token
 
     def group(self):
-        """Parses a group in braces or a single atom."""
         if self.peek() != "{":
             return self.atom()
         self.take("{")
@@ -95,7 +91,6 @@ class Parser:
         return parts
 
     def scripted(self):
-        """Parses an atom with its index, its power and its primes."""
         large = self.peek()[1:] in LARGE
         base, below, above, primes = self.atom(), None, [], 0
         while self.peek() in ("_", "^", "'"):
@@ -165,7 +160,6 @@ class Parser:
 
 
 def convert(tex, display=False):
-    """Returns the <math> element of an equation."""
     parser = Parser(tex)
     parts = parser.until()
     kind = ' display="block"' if display else ""

@@ -51,7 +51,6 @@ def read_bench(path, case):
 
 
 def value_of(site, key, n, parameters):
-    """Returns the largest support stiffness [N/m] of a run of the joint in the results, or NaN."""
     case = site.case("spherical_joint")
     for point in case.points if case else []:
         if point.parameters == parameters:
@@ -77,8 +76,6 @@ def comparison(site, cells):
 
 
 def curve_figure(site):
-    """Draws the support stiffness over one revolution for one and two elements, the converged beam, and the published
-    maximum of shells."""
     case = site.case("spherical_joint")
     point = next((p for p in case.points if p.name == "default"), None) if case else None
     wanted = (("collocation", 1), ("sheet_third", 1), ("sheet_third", 2), ("sheet_second", 1),
@@ -150,7 +147,6 @@ def growth_figure(site, cells):
 
 
 def factor_of_orders(cells):
-    """Returns the time of two second-order elements relative to one third-order element in the hexapod."""
     at = {(c.key, c.n): c.seconds for c in cells if c.case == "hexapod"}
     return at.get(("sheet_second", 2), math.nan) / at.get(("sheet_third", 1), math.nan)
 

@@ -15,9 +15,6 @@ from reports.figures.chart import Chart
 from reports.data import holds, text
 from reports.figures.style import COLOURS
 
-# Motions in a results file: the table `motion`, with a row for each accepted step, and the settings of the integrators
-# from the scene.
-
 TABLE = "motion"
 MOMENTA = {"P": ("px", "py", "pz"), "L": ("lx", "ly", "lz")}
 
@@ -44,7 +41,6 @@ class Motion:
 
     @property
     def scale(self):
-        """Returns the scale of energy-balance errors [J]: the largest magnitude of energy and work."""
         return float(max(np.abs(self.energy).max(), np.abs(self.columns["work"]).max()))
 
     @property
@@ -52,7 +48,6 @@ class Motion:
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
-        """Returns the momentum P or the angular momentum L at the start and after each step [values x 3]."""
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
@@ -64,7 +59,6 @@ class Motion:
 
 
 def motions_of(path, case, point="default"):
-    """Returns [Motion] of a case at a point: the last motion on the finest mesh of each formulation."""
     with h5py.File(path) as file:
         group = file[f"cases/{case}"]
         if TABLE not in group or not len(group[TABLE]):
@@ -85,7 +79,6 @@ def motions_of(path, case, point="default"):
 
 
 def has_motions(path):
-    """Returns True if any case in the file has a motion."""
     with h5py.File(path) as file:
         return any(TABLE in group and len(group[TABLE]) for group in file["cases"].values())
 
@@ -99,8 +92,6 @@ def how(point):
 
 @dataclass(frozen=True)
 class Truth:
-    """A reference value at one time."""
-
     time: float
     value: float
 
@@ -123,13 +114,10 @@ def truths_of(path, case, quantity, end):
     return [Truth(*item) for item in sorted(found.items())]
 
 
-# Text about a motion: its integrator, steps and drift.
-
 ROUND_OFF = 1e-6  # relative change below which a momentum is treated as conserved
 
 
 def scheme(how):
-    """Returns the name and parameters of the integrator of a motion."""
     name = how.get("integrator", "alpha")
     if name != "alpha":
         return name
@@ -149,7 +137,6 @@ def scheme(how):
 
 
 def words_of_steps(motion):
-    """Describes the number and the lengths of steps."""
     lengths = motion.steps
     if np.ptp(lengths) <= 1e-6 * lengths.max():
         return f"{len(lengths)} steps of {lengths[0]:.3g} s"
@@ -157,7 +144,6 @@ def words_of_steps(motion):
 
 
 def words_of_momenta(motion):
-    """Describes the largest change of momenta if they are conserved. Otherwise returns an empty string."""
     changes = [c for c in (motion.stays("P"), motion.stays("L")) if math.isfinite(c)]
     if changes and max(changes) < ROUND_OFF:
         return f", momentum and angular momentum by {max(changes):.0e}"
@@ -165,7 +151,6 @@ def words_of_momenta(motion):
 
 
 def sentence(motion, how):
-    """Describes one motion in one sentence."""
     rejected = int(motion.columns["rejected"].sum())
     tries = (f" ({rejected} longer {'one' if rejected == 1 else 'ones'} rejected)"
              if rejected else "")
@@ -180,13 +165,11 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """Returns `smallest to largest`, or one value if both have the same text."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 
 
 def whenever(meaning):
-    """Returns the meaning of a quantity without its time."""
     return re.sub(r", \S+ s after the start of the motion", "", meaning)
 
 
@@ -200,8 +183,6 @@ def spread(motions):
     return (f"In all {len(motions)} formulations energy drifts by "
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
-
-# Units with a prefix for axes, so that the numbers of an axis are close to one.
 
 PREFIXES = ((1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"))
 POWERS = {1e-6: "10⁻⁶ ", 1e-3: "10⁻³ ", 1e3: "10³ "}
@@ -222,8 +203,6 @@ def fitting(values, unit):
     return size, POWERS[size] + unit if unit not in ("", "1") else POWERS[size].strip()
 
 
-# Figures of a motion over time.
-
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # largest number of points of a curve
 MOST_CURVES = 7  # largest number of curves of formulations; together with the reference value, style.MOST
@@ -236,7 +215,6 @@ AXES = {"x": (0, "-"), "y": (1, "--"), "z": (2, ":")}
 
 
 def thinned(values, most=MOST_POINTS):
-    """Returns the indices of at most this number of values, evenly spaced and including both ends."""
     return np.unique(np.linspace(0, len(values) - 1, min(len(values), most)).round().astype(int))
 
 
@@ -260,7 +238,6 @@ def line(site, panel, name, look, x, y, unit, size):
 
 
 def draw_energies(site, motion, name):
-    """Draws kinetic energy, strain energy and their sum, and work and dissipated energy if they are not zero."""
     chart = Chart(1, WIDE)
     values = {**motion.columns, "energy": motion.energy}
     size, unit = fitting(motion.scale, "J")
@@ -275,7 +252,6 @@ def draw_energies(site, motion, name):
 
 
 def draw_momenta(site, motion, name):
-    """Draws the momentum and the angular momentum, each in a panel."""
     chart = Chart(2, HALF, gap=(76, 52))
     at = thinned(motion.time)
     for which, words, unit in (("P", "momentum", "kg m/s"), ("L", "angular momentum", "kg m²/s")):
@@ -288,15 +264,13 @@ def draw_momenta(site, motion, name):
 
 
 def leading(motions):
-    """Returns the motions that are drawn, at most MOST_CURVES. Formulations without options come first, uncorrected
-    misprints last."""
+    """Returns the motions that are drawn, at most MOST_CURVES."""
     rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]
 
 
 def compared(site, panel, motion, x, y, what):
-    """Draws a curve of a formulation."""
     marks = thinned(x, 9)
     look = site.points(motion.formulation, ("time", what),
                        [(f"{x[i]:.4g} s", float(f"{y[i]:.3g}")) for i in marks],
@@ -305,7 +279,6 @@ def compared(site, panel, motion, x, y, what):
 
 
 def draw_drifts(site, motions, name):
-    """Draws the magnitude of the energy-balance error of the leading formulations."""
     chart = Chart(1, WIDE)
     panel = chart.panel("", "time [s]", "drift of energy", xlog=False)
     for motion in leading(motions):
@@ -358,7 +331,6 @@ def over_time(case, quantity):
 
 
 def end_of(case):
-    """Returns the default of the parameter `time`, or None."""
     found = [p for p in case.parameters if p["parameter"] == "time"]
     return float(found[0]["default"]) if found else None
 
@@ -410,7 +382,6 @@ def leader(motions):
 
 
 def parts_of(site, case, motions):
-    """Returns the variables of the template for the page of a case."""
     first, name = leader(motions), f"motion_{case.name}"
     drawn = [(q, draw_quantity(site, case, q, f"{name}_{q}"))
              for q in dict.fromkeys([*case.points[0].meanings, *case.points[0].units])]
@@ -429,13 +400,11 @@ def parts_of(site, case, motions):
 
 
 def found_in(site):
-    """Returns [(case, [Motion])] of the cases with motions."""
     found = ((case, motions_of(site.results, case.name)) for case in site.cases)
     return [(case, motions) for case, motions in found if motions]
 
 
 def section(site, case):
-    """Returns the section on motions for the page of a case, or [] without motions."""
     motions = motions_of(site.results, case.name)
     if not motions:
         return []

@@ -33,7 +33,6 @@ class Group:
 
 
 def groups(pages):
-    """Returns [Group] of the existing pages, [(file, title)]."""
     titles, placed = dict(pages), {file for _, files in GROUPS for file in files}
     found = []
     for title, files in GROUPS:
@@ -49,8 +48,7 @@ def groups(pages):
 
 
 def group_of(name, found, cases):
-    """Returns the Group of a page, or None. The page of one case, formulation or motion belongs to the group that
-    contains the page of all of them."""
+    """The page of one case, formulation or motion belongs to the group that contains the page of all of them."""
     if name.startswith("formulation_"):
         name = "formulations.html"
     elif name.startswith("motion_"):

@@ -11,7 +11,6 @@ FORMS = ("mixed", "displacement")
 
 
 def read(path):
-    """Returns the contents of a file that harness/tools/newton.py wrote, or None if it cannot be read."""
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
@@ -62,7 +61,7 @@ def contests(data):
 
 
 def figure_of(case, histories):
-    """Draws each correction against the preceding correction. Quadratic convergence has the slope two."""
+    """Quadratic convergence has the slope two."""
     figure, axes = plt.subplots(figsize=(5.2, 4.2))
     for marker, form in zip("o+", FORMS):
         for h in (h for h in histories if h["form"] == form):
@@ -85,7 +84,6 @@ def figure_of(case, histories):
 
 
 def stored(site):
-    """Returns the contents of newton.json next to the results, or None."""
     return read(os.path.join(os.path.dirname(site.results), "newton.json"))
 
 

@@ -53,7 +53,6 @@ def _run(index):
 
 
 def present(site):
-    """Returns the page modules whose data exist."""
     names = ALONE if site.alone else PAGES
     modules = [importlib.import_module(f"reports.{name}") for name in names]
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]

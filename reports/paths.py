@@ -35,7 +35,6 @@ class Solid:
 
 @dataclasses.dataclass
 class Event:
-    """A critical point or other event on a path."""
     kind: str
     before: int
     after: int
@@ -45,7 +44,6 @@ class Event:
 
 
 def solid(truths, parameters, quantity):
-    """Returns the Solid of a quantity at these parameters of the cantilever, sorted by deflection, or None."""
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
@@ -169,8 +167,6 @@ def percent(value):
 
 
 def conclusions(site, look):
-    """Yields (statement in J section 5.2, computed values in text form)."""
-
     def load(parameters, key, n):
         return look.value(CASE, parameters, key, n, "load_at_w")
 

@@ -74,7 +74,6 @@ def supports(s):
 
 
 def hinges(s):
-    """Returns the indices of the points at released member ends."""
     ends = np.column_stack([s.first[:-1], s.first[1:] - 1])
     return ends[s.released != 0]
 
@@ -90,8 +89,6 @@ def drawn_polygons(s, state, scale):
 
 
 class Sheet:
-    """The frame of the picture, which maps metres of the scene to the paper."""
-
     def __init__(self, view, points, width=560, most=380):
         flat = view.flat(points)
         low, high = flat.min(axis=0), flat.max(axis=0)
@@ -109,7 +106,6 @@ class Sheet:
         return "M" + "L".join(self.at(corners)) + ("z" if len(corners) > 2 else "")
 
     def bar(self):
-        """Returns a scale bar whose length is a power of ten."""
         length = 10 ** math.floor(math.log10(0.4 * self.width / self.scale))
         words = f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm"
         x, y = 10 + length * self.scale, self.height - 10

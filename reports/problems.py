@@ -32,7 +32,6 @@ class Problem:
 
 
 def contestants(cases):
-    """Returns the keys of ranked formulations, without options and misprints if possible."""
     keys = {s.key for c in cases for p in c.points for s in p.series
             if not s.missing and not s.unranked}
     plain = {k for k in keys if ":" not in k and verdicts.corrected(k) is None}
@@ -70,12 +69,10 @@ def problems(cases, keys):
 
 
 def defect(verdict, level):
-    """Returns True if the limit is known to differ from the reference value by more than the level."""
     return verdict.verdict in OWN_LIMITS and abs(verdict.error) > level
 
 
 def any_defect(verdict, level):
-    """Returns True if the limit is known to differ from the reference value by any amount."""
     del level
     return verdict.verdict in OWN_LIMITS
 
@@ -148,8 +145,6 @@ def factors(found, keys, question):
     return out
 
 
-# Reliability and speed: the verdicts on each formulation and its costs.
-
 LEVEL, NEAR = 0.01, 2  # error level, and cost relative to the lowest cost up to which a formulation is near the best
 GROUPS = {  # column -> verdicts that the column counts
     "pass": ("pass",),
@@ -199,7 +194,6 @@ def median(pairs):
 
 
 def count_trust(cases):
-    """Returns {formulation: {column: number of verdicts}} over all points and quantities, without aliases."""
     out = {}
     for row in verdicts.rows(cases):
         name = COLUMN.get(row.verdict.verdict)
@@ -210,7 +204,6 @@ def count_trust(cases):
 
 
 def judged(cases):
-    """Returns every formulation that has a verdict, with and without options."""
     return [key for key, counts in count_trust(cases).items() if sum(counts.values())]
 
 

@@ -88,8 +88,6 @@ def read_at(curves, at, factor):
 
 
 class Compared:
-    """Comparison of results: the problems, the formulations, and the formulations with a curve."""
-
     def __init__(self, cases):
         self.keys = problems.contestants(cases)
         self.problems = problems.problems(cases, self.keys)
@@ -100,19 +98,14 @@ class Compared:
 
     @property
     def any(self):
-        """Returns True if a comparison is possible, which requires a problem and two formulations."""
         return bool(self.problems) and len(self.keys) > 1
 
     def profile(self, question, offered=False):
-        """Returns {formulation: shares at `places`, followed by the share that the formulation solves at any
-        factor}."""
         if (question, offered) not in self._profiles:
             found = profile(self.problems, self.keys, question, offered)
             self._profiles[question, offered] = found
         return self._profiles[question, offered]
 
-
-# Profiles as figures, and as a table for other programs.
 
 XLABELS = {
     ("cost", True): "cost relative to the lowest cost",
@@ -127,15 +120,12 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """Returns the arguments of plot() for a curve. Tooltips of its markers show the share at their factor and at any
-    cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)
 
 
 def legend_of(site, keys, name="profile_legend"):
-    """Draws one legend for all figures of the page."""
     columns = min(2, len(keys))
     figure, axes = plt.subplots(figsize=(1.95 * columns, 0.22 * -(-len(keys) // columns) + 0.06))
     lines = [axes.plot([], [], label=key, **site.styles.of(key))[0] for key in keys]
@@ -209,8 +199,6 @@ def write_table(site, compared, name="profiles.csv"):
     os.replace(f"{path}.part", path)
     return name
 
-
-# The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
 NEAR = {to_the_best: 2, to_the_smallest: 10}  # factors for which texts give the leading share

@@ -17,7 +17,6 @@ class Clock:
 
 @dataclass
 class Kept:
-    """Time of a run without elimination of degrees of freedom, and the number of its unknowns."""
     clock: Clock
     free: int
 
@@ -33,7 +32,6 @@ class Dense:
 
 @dataclass
 class Mesh:
-    """One run: a formulation on one mesh."""
     n: int
     status: str
     reason: str
@@ -116,12 +114,10 @@ class Series:
 
     @property
     def marks(self):
-        """Returns the remarks that follow the name of the series on all pages."""
         return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property
     def label(self):
-        """Returns the name of the series in a legend."""
         other = f"without {self.other}" if self.other else ""
         marks = "; ".join(filter(None, (self.marks, other)))
         return f"{self.key} ({marks})" if marks else self.key
@@ -136,14 +132,13 @@ class Point:
     others: list = field(default_factory=list)  # series of other programs (reports/data.py)
     noise: float = 1.25  # ratio of costs below which costs tie
     scene: str = ""  # text of the scene file
-    meanings: dict = field(default_factory=dict)  # quantity -> description in one line
+    meanings: dict = field(default_factory=dict)
     omitted: str = ""  # description of the physics that the scene omits
     assumed: list = field(default_factory=list)  # (kind, assumption about a section)
 
 
 @dataclass
 class Case:
-    """A case with all its parameter points."""
     name: str
     summary: str
     source: str

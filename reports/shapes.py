@@ -26,7 +26,6 @@ FRAME = "motion"  # kind of a state that is a frame of a motion, whose value is 
 
 @dataclasses.dataclass
 class Shapes:
-    """Content of the group `shapes` of a run."""
     formulation: str
     n: int
     members: np.ndarray  # nodes p and q, and section [members x 3]
@@ -46,7 +45,6 @@ class Shapes:
 
 
 def matrices(q):
-    """Returns the triads of the quaternions q[..., 4], with the axes x, y, z in rows."""
     w, x, y, z = np.moveaxis(q, -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
             [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
@@ -55,17 +53,14 @@ def matrices(q):
 
 
 def frames_in(shapes):
-    """Returns the number of frames of a motion in a group `shapes`."""
     return int((shapes["kind"][()] == FRAME.encode()).sum())
 
 
 def read(site, case):
-    """Returns the shapes of a case at its defaults, or None if the results contain none."""
     return read_file(site.results, case.name)
 
 
 def read_file(path, name, point="default"):
-    """Returns the shapes of a case at a point from a file, or None."""
     with h5py.File(path) as file:
         place = f"cases/{name}/shapes/{point}"
         if place not in file:
@@ -103,7 +98,6 @@ def turns(s, a, b):
 
 
 def distance(s, a, b):
-    """Returns an upper estimate of the largest distance that a point of a section moves between states a and b [m]."""
     radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
     return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) +
                   radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
@@ -128,7 +122,6 @@ def axes_of(s, state, scale):
 
 
 def is_thick(wall):
-    """Returns True if the wall is drawn with all its sides instead of its mid-line."""
     return np.linalg.norm(wall[0] - wall[1]) > THIN * np.linalg.norm(wall[1] - wall[2])
 
 

@@ -26,7 +26,6 @@ def percent(value):
 
 
 def limit(v):
-    """Returns a limit in text form with its uncertainty, to one or two digits more than are known."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
@@ -53,7 +52,6 @@ def file_of(key):
 
 
 def file_name(path):
-    """Returns a name for use in a URL, made from the name of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
 
 
@@ -110,18 +108,15 @@ class Site:
                                       look_of=style.class_of)
 
     def write_assets(self):
-        """Writes the style sheet and the scripts next to the pages."""
         for asset in ASSETS.iterdir():
             own = style.sheet() if asset.name == "style.css" else ""
             with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
                 out.write(asset.read_text(encoding="utf-8") + own)
 
     def has_page(self, name):
-        """Returns True if a page of the bar is written."""
         return any(file == name for file, _ in self.navigation)
 
     def bar(self, name):
-        """Returns (groups of the bar, the group of the page or None)."""
         found = navigation.groups(self.navigation)
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
@@ -142,7 +137,6 @@ class Site:
         return next((c for c in self.cases if c.name == name), None)
 
     def write(self, template, name, **context):
-        """Renders a template to a page of the site."""
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
         with open(path, "w", encoding="utf-8") as out:
@@ -163,8 +157,7 @@ class Site:
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 
     def image(self, figure, name, tight=True):
-        """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. If `tight` is
-        True, the figure is cropped to its contents and is therefore drawn twice."""
+        """If `tight` is True, the figure is cropped to its contents and is therefore drawn twice."""
         self.paper.figure(figure, name)
         image = svg.image_of(figure, name, self.said, tight)
         plt.close(figure)
@@ -172,7 +165,7 @@ class Site:
         return image
 
     def keep(self, image):
-        """Writes an image to a separate file. Returns the name of the file."""
+        """Returns the name of the file."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(svg.alone(image.markup))
         return image.name

@@ -22,15 +22,12 @@ def map_text(x, y, words, more=""):
 
 
 class Fields:
-    """All fields, collected by outcome: each kind of outcome has one path and one group of signs."""
-
     def __init__(self, look):
         self.look = look
         self.paths, self.signs = {kind: [] for kind in look}, {kind: [] for kind in look}
         self.absent = []
 
     def strip(self, found, values, left, top):
-        """Adds one field with a part for each value, in the colour and with the sign of its outcome."""
         middle = top + TALL / 2 + 3
         if found is None:
             self.absent.append(map_text(left + WIDE / 2 - 2, middle, "–"))
@@ -62,7 +59,6 @@ def paint(kind, colour):
 
 
 def draw_band(fields, extremes, keys, all_cells, top):
-    """Draws the fields of some extremes, with the names of extremes above and those of formulations on the left."""
     out = ""
     for column, extreme in enumerate(extremes):
         x = LEFT + (column + 0.5) * WIDE
@@ -78,7 +74,7 @@ def draw_band(fields, extremes, keys, all_cells, top):
 
 
 def draw_map(record, all_cells, look, meaning):
-    """Returns the Image. `look` is {kind: (colour, sign)}, and `meaning` is {kind: description}."""
+    """`look` is {kind: (colour, sign)}, and `meaning` is {kind: description}."""
     extremes = record["extremes"]
     keys = [f["formulation"] for f in record["formulations"]]
     kinds = {c.kind for found in all_cells.values() for c in found.values()}
@@ -175,13 +171,12 @@ def cells(record):
 
 
 def largest(found, name):
-    """Returns the largest value of the attribute `name` over these Cells ({x: Cell}) in text form."""
     values = [getattr(c, name) for c in found.values() if math.isfinite(getattr(c, name))]
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 
 
 def draw_curve(site, extreme, keys, all_cells):
-    """Draws the error against the varied parameter. A failure is drawn as a cross on the upper edge."""
+    """A failure is drawn as a cross on the upper edge."""
     low, high = min(extreme["values"]), max(extreme["values"])
     unit = "" if extreme["x_unit"] == "1" else f" [{extreme['x_unit']}]"
     chart = Chart(1, (540, 190))

@@ -14,9 +14,6 @@ from matplotlib.colors import to_hex
 from reports.figures.chart import Chart
 from reports.sweep import answers, gather, maps
 
-# Figures of the page: maps of the required number of elements, maps of the formulation of lowest cost, and curves of
-# the error over one axis.
-
 MOST_DOTS = 400  # largest number of scattered points that are drawn individually
 SLICES, WORDS = 4, 6  # largest number of maps side by side over a third axis: with numbers, and with words
 NARROW = 170  # width of one of several maps side by side, in pixels
@@ -25,7 +22,6 @@ FLOOR = 1e-12  # smallest drawn error
 
 
 def projected(found, table, axes):
-    """Returns a table [cells, ...] reshaped to its axes and summed over all except the given axes, in the given order."""
     count = len(found.parts)
     whole = table.reshape(found.shape + table.shape[1:])
     whole = whole.sum(axis=tuple(a for a in range(count) if a not in axes))
@@ -53,7 +49,6 @@ def slices_of(part):
 
 
 def counted(state, look):
-    """Returns the alternative text of a map: the fraction of cells in each state."""
     drawn = state[state != maps.EMPTY]
     said = [f"{look.words[k]}: {answers.percent((drawn == k).sum() / drawn.size)}"
             for k in [*(k for k in look.words if k >= 0), maps.UNKNOWN] if (drawn == k).any()]
@@ -97,7 +92,6 @@ class Validity:
             f"{what}: {counted(state, self.look)}")
 
     def strips(self, order):
-        """Draws a map over one axis with a row for each formulation, the first on top."""
         found, upward = self.found, order[::-1]
         rows = [self.sweep.keys.index(key) for key in upward]
         state = maps.states(found.reach[:, rows, self.q], found.points[:, None], self.look)
@@ -106,7 +100,6 @@ class Validity:
                          f"elements needed over {found.parts[0].axis.name}")
 
     def of(self, f, key):
-        """Returns the maps of a formulation: one map of two axes, or several side by side over the third axis."""
         found, (a, b, *more) = self.found, self.axes
         x, y = found.parts[a], found.parts[b]
         what = f"elements needed by {key} over {x.axis.name} and {y.axis.name}"
@@ -216,7 +209,6 @@ SPECIAL = {maps.EMPTY: "_", maps.UNKNOWN: "?"}
 
 
 def written(states):
-    """Returns the states of cells as one string."""
     out = []
     for state, same in itertools.groupby(states.ravel().tolist()):
         times = len(list(same))
@@ -261,7 +253,6 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """Returns the data of an axis for maps."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
             "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":
@@ -313,7 +304,6 @@ def present(site):
 
 
 def axis_words(part):
-    """Describes the values along an axis."""
     axis, count = part.axis, len(part.levels) or part.axis.count
     if axis.words:
         return f"{axis.name}: {', '.join(axis.words)}"

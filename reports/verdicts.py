@@ -66,7 +66,6 @@ def met(v):
 
 
 def of_limit(v):
-    """Describes a limit that differs, or may differ, from the reference value."""
     if v.verdict == "undecided" and v.truth:
         known = 100 * v.limit_uncertainty / abs(v.truth)
         return [f"{percent(v.error)} from the reference value, known to ± {known:.2g} %"]
@@ -119,14 +118,12 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Returns True if both names have equal values in every run of the case, and a value in at least one run."""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
 
 
 def aliases(case):
-    """Returns the names of a case that are aliases of another name."""
     return {name for name, other in ALIASES.items() if is_alias(case, name, other)}
 
 
@@ -160,7 +157,6 @@ def rows(cases):
 
 
 def counts(found):
-    """Returns {verdict: number} of the counted verdicts, and {standing: number} of the other verdicts."""
     by_verdict, left_out = {}, {}
     for row in found:
         own = row.standing == OWN

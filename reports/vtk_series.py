@@ -1,6 +1,6 @@
-"""python -m reports RESULTS.h5 TRUTHS --vtk FILE.pvd writes the states of the group /VTKHDF of a results file in a series
-of VTK files. FILE.pvd lists the times or load factors, and the folder FILE contains one .vtu file for each state. All
-versions of VTK and ParaView read these files. VTK reads time steps of VTKHDF only from version 9.3 on."""
+"""python -m reports RESULTS.h5 TRUTHS --vtk FILE.pvd writes the states of the group /VTKHDF of a results file in a
+series of VTK files. FILE.pvd lists the times or load factors, and the folder FILE contains one .vtu file for each
+state. All versions of VTK and ParaView read these files."""
 import base64
 import os
 import pathlib
@@ -30,7 +30,6 @@ def array(name, values):
 
 
 def state(group, first, points):
-    """Returns the text of the .vtu file of the state whose points begin at `first`."""
     rows = slice(first, first + points)
     offsets = group["Offsets"][1:]
     at_points = "".join(array(name, values[rows]) for name, values in group["PointData"].items())

@@ -277,7 +277,6 @@ status continuation_step_end(continuation *, path_point *, const step_record *, 
 /* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
 
-/* End of a step that may lie on another branch. */
 typedef struct other_branch {
     model_state *state; /* NULL: none */
     double factor;
@@ -291,12 +290,7 @@ status continuation_critical(continuation *, path_goal, int *jump, fault *);
  * of the rate, or the number of negative pivots) changes and changes back within the step. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
-/* Quantities of a scene from the outcomes of its analyses. */
-
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
-
-/* Quantities of a path: the value at a station, the maximum or minimum over all stations, or a
- * curve. */
 
 /* Evaluates a quantity of a path. There is no value if the path ends before the stations that the
  * quantity needs. */
@@ -346,7 +340,6 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Natural frequencies about the undeformed state. */
 
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Analyses about the undeformed state. */
 status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Returns the number of modes that the quantities of an analysis need. */
@@ -577,8 +570,6 @@ status second_order_take(const second_order *, int outputs, linear_model *, faul
 /* Stores the state space. reduced 1: the state space of the whole model already exists. */
 status second_order_state_space(const vibration *, const system_matrices *, const second_order *,
                                 int reduced, linear_model *, fault *);
-
-/* Poles of closed loops (poles.c). */
 
 /* Returns the number of integral gains of the closed loops. */
 int poles_integrals(const vibration *);

@@ -22,7 +22,6 @@ enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
  *  */
 static const double aim = 0.7;
 
-/* Result of an attempted step. */
 typedef struct attempt {
     const char *reason; /* reason why the step may be invalid; NULL: the step is valid */
     double swing;

@@ -1,5 +1,3 @@
-/* A point of a continued path: Newton's method with a constraint, and the tangent of the path at
- * the point. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* Quantities of a scene from the outcomes of its analyses. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -10,10 +9,8 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* Sets the value to the critical load factor with the requested sign and number. */
 static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
                                       const analysis_outcome *, quantity_result *);
-/* Sets the value to the frequency [Hz] of the mode of the requested kind and number. */
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                                    const analysis_outcome *, quantity_result *);
 

@@ -1,4 +1,3 @@
-/* Quantities of a motion that continues the motion of another run. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

@@ -302,7 +302,6 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Evaluates a quantity of a motion between its stations. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {

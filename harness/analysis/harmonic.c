@@ -1,5 +1,3 @@
-/* Steady-state vibration about a state, with one solution for each frequency (dynamic stiffness:
- * harmonic_matrices.c). */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>

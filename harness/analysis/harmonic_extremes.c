@@ -1,4 +1,3 @@
-/* Extremes of harmonic responses between the frequencies of the analysis. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -93,7 +92,6 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which a search for extremes starts. */
 typedef struct samples {
     int count;
     double *hertz, *value;

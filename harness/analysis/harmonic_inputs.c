@@ -1,5 +1,3 @@
-/* Inputs of a harmonic analysis in the form of forces, and its outputs in the form of linear
- * functions of the displacements. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>

@@ -1,4 +1,3 @@
-/* Undamped modes of a harmonic analysis, and damping ratios of modes. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <float.h>

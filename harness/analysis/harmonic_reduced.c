@@ -213,7 +213,6 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     return outcome;
 }
 
-/* Returns entry k of V^T D V. */
 static double complex projected(const vibration *v, const harmonic_modes *m, double w, size_t k)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -311,7 +310,6 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     return condition > 1e-14 ? STATUS_OK : fault_set(f, STATUS_SINGULAR, "a mode has no damping");
 }
 
-/* Subtracts D x from y. */
 static void subtract_product(const vibration *v, const double complex x[], double complex y[])
 {
     const harmonic_modes *m = v->modes;

@@ -63,7 +63,6 @@ static int most_along(int vertices, const double *const u[2], const double direc
     return 1;
 }
 
-/* Writes the name of a mode, such as "mode 0 of analysis buckle". */
 static void name_mode(const scene *s, const scene_imperfection *p, char text[FAULT_TEXT])
 {
     snprintf(text, FAULT_TEXT, "mode %d of %s", p->order,

@@ -1,4 +1,3 @@
-/* Linear statics and linear buckling. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

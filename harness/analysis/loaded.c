@@ -464,7 +464,6 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     return STATUS_OK;
 }
 
-/* The loads of the outcome in ascending order: values and relative errors [wanted]. */
 typedef struct loads_found {
     int count;
     double *value, *error;

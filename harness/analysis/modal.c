@@ -56,7 +56,6 @@ static double stiffness_rounding(void *context, const double mode[])
     return quadratic_forms_stiffness_rounding(&f->of, mode);
 }
 
-/* Adds `times` A x to y. */
 static void add_product(const modal_forms *f, const sparse *A, double times, const double x[],
                         double y[])
 {

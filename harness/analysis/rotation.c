@@ -44,7 +44,6 @@ static double tangent_rounding(void *context, const double mode[])
            sparse_rounding(t->geometric, mode, mode);
 }
 
-/* Matrices on the pattern of the free coordinates, for all stations. */
 typedef struct matrices {
     sparse K, M, G, geometric; /* the geometric part of K */
     matrix_factor *factor;

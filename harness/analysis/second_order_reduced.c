@@ -1,4 +1,3 @@
-/* Reduced linear models and their errors. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <limits.h>

@@ -1,4 +1,3 @@
-/* Storage of second-order models and of their state spaces with closed loops of feedback. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <stdlib.h>

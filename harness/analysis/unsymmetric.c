@@ -209,7 +209,6 @@ static double complex root(const unsymmetric_solver *s, double complex theta)
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
 }
 
-/* Work space of the estimates, with [n] entries each. */
 typedef struct growth_estimate {
     double complex *x, *w, *y, *left; /* left: [left.count x n] */
 } growth_estimate;

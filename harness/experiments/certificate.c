@@ -288,7 +288,6 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
     write_checks(to, look, own, verbose);
 }
 
-/* Writes an error as "exact", "0.35 %" or "3e-05 %", or "-" if there is none. */
 static void error_text(double error, char text[COLUMN + 8])
 {
     const double percent = 100 * fabs(error);

@@ -209,8 +209,6 @@ static stress_output many_stress_of(const many_batch *b, int k, many_answers *a)
     return out;
 }
 
-/* Records the difference between a value from a single call and the value from a call for many
- * elements, relative to `size`. */
 static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
                    double together, double size, check_result *one)
 {

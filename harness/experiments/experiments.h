@@ -1,5 +1,3 @@
-/* experiments/: verification, sweeps, extremes, comparison of integrators, certificates of
- * elements, shards. */
 #ifndef BEAMWORK_EXPERIMENTS_H
 #define BEAMWORK_EXPERIMENTS_H
 
@@ -48,7 +46,7 @@ typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kin
 
 typedef struct sweep_axis {
     const parameter_type *of;
-    int index; /* index of the parameter in the case */
+    int index;
     axis_kind kind;
     double from, to; /* ends of the range, for AXIS_LINEAR and AXIS_LOG */
     int count;       /* number of values; 0: the range is not divided */
@@ -96,7 +94,6 @@ typedef struct batch_label {
     json_t *origin; /* batch_label_free releases this object */
 } batch_label;
 
-/* Reads the label of a batch without checking the results. */
 status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
 
@@ -124,8 +121,6 @@ typedef struct measures {
     element_measure measure[MEASURES_MOST];
     char words[MEASURE_WORDS]; /* text that applies to all measures; "": none */
 } measures;
-
-/* An experiment is planned, run and evaluated. */
 
 typedef struct experiment_cells {
     const sweep *sweep;
@@ -165,10 +160,8 @@ typedef struct experiment_output {
 experiment_output experiment_output_of(const char *path, const char *format, const char *json);
 
 status experiment_plan(const experiment_type *, const void *requested, void *found, fault *f);
-/* Runs an experiment that has been planned. */
 status experiment_run(const experiment_type *, const void *requested, const experiment_output *,
                       void *found, fault *f);
-/* Plans and runs the experiment. */
 status experiment_do(const experiment_type *, const void *requested, const experiment_output *,
                      void *found, fault *f);
 
@@ -237,9 +230,6 @@ typedef enum profiles_form {
     PROFILES_MATRICES     /* matrices without zero entries */
 } profiles_form;
 
-/* One element under test: section, options, features, states of the nodes, and calls of the type's
- * functions. */
-
 enum {
     TEST_ELEMENT_STRAINS = ELEMENT_MAX_STRAINS,
     TEST_ELEMENT_COORDINATES = ELEMENT_MAX_COORDINATES,
@@ -305,9 +295,6 @@ typedef struct measured_group {
 
 enum { MEASURED_GROUPS = 4 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
-
-/* Certificate of a formulation: results of the checks of the interface requirements, and measured
- * properties. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
@@ -383,7 +370,6 @@ int batches_cut(int items, const double cost[], double most, int first[]);
 /* Choice of parameter points: a grid over all axes, or points that fill the ranges of the axes. */
 
 typedef enum design_kind { DESIGN_GRID, DESIGN_SOBOL, DESIGN_HALTON, DESIGN_RANDOM } design_kind;
-/* Words of the option --design, in the order of design_kind. */
 #define DESIGN_CHOICES "grid|sobol|halton|random"
 
 typedef struct design_mark {
@@ -495,8 +481,6 @@ typedef struct integrators_method {
     int estimate; /* 1: the integrator estimates the error of every step */
 } integrators_method;
 
-/* Comparison of integrators for transient analysis: cost and accuracy. */
-
 /* Classification of a motion. */
 typedef enum integrators_class {
     INTEGRATORS_UNCLASSIFIED, /* not classified, because loads or supports act until the end */
@@ -508,7 +492,6 @@ typedef enum integrators_class {
     INTEGRATORS_CLASSES
 } integrators_class;
 
-/* One motion, computed by an integrator with a step size or a tolerance. */
 typedef struct integrators_run {
     int group, series; /* indices of the group, and of the series in the sweep */
     integrators_method method;
@@ -618,8 +601,6 @@ typedef struct motions {
 extern const experiment_type experiment_motion;
 void motions_free(motions *);
 
-/* Results of a sweep in columns. */
-
 /* Kind of reference from which an error is computed. */
 typedef enum rows_reference {
     ROWS_STORED,  /* a reference value stored for exactly this point */
@@ -711,8 +692,6 @@ status ranges_make(const ranges_request *request, parameter_ranges *out, fault *
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
 
-/* One shard of a work. */
-
 typedef struct shard_request {
     int index, count; /* index of the shard, starting at 0, and number of shards */
     const char *into; /* folder of the batches; created if necessary */
@@ -746,8 +725,6 @@ status list_json_all(FILE *to, int cases, int formulations, fault *f);
 status list_json_case(FILE *to, const case_type *type, const double value[], fault *f);
 status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
                              fault *f);
-
-/* Subject of a list: all cases, all formulations, both, one case or one formulation. */
 
 typedef struct list_subject {
     int cases, formulations; /* 1: all of them */
@@ -795,8 +772,6 @@ void batch_store_print_kinds(const batch_store *, FILE *to);
  * repeats the request of this batch. REFUSED: the folder has no readable batch. */
 status batch_store_first(const char *folder, batch_label *out, fault *f);
 
-/* Reads the batches of one or several folders in canonical order. */
-
 /* Reads every existing batch. s: result of batch_store_read. FAULT: a batch can no longer be read.
  */
 status merge_read(const shard_work *w, const batch_store *s, fault *f);
@@ -806,8 +781,6 @@ enum { MESHES_FINEST = 10000000 };
 /* Appends the numbers of a list such as "1,2,4" to mesh[most] and updates their number *count.
  * REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many items. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
-
-/* Summary of a sweep, accumulated point by point. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
 
@@ -892,8 +865,6 @@ typedef struct ranges_work {
     digest content;    /* digest of all values read, except times */
 } ranges_work;
 
-/* Computes the batches of a sweep, or reads the batches of shards. */
-
 typedef struct range_sweep_request {
     ranges_request of;
     const char *output; /* path of the HDF5 file; NULL: none */
@@ -939,8 +910,6 @@ void ranges_table_head(FILE *to, const parameter_ranges *r);
  * REFUSED: the two runs have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, evaluation *,
                         fault *);
-
-/* One cell of a case. */
 
 typedef struct solution_request {
     const case_type *type;
@@ -1028,8 +997,6 @@ void rounds_pin(void);
  * loaded. arguments: NULL-terminated. */
 void rounds_single_thread(char **arguments);
 
-/* Runs every formulation on every case and parameter point that has a reference value. */
-
 typedef struct verification_reader {
     void *context;
     /* Called once per case, after its last series has been evaluated. In an interrupted run, only
@@ -1045,8 +1012,6 @@ status verification_run(const sweep_request *, int whole, const verification_rea
 
 /* Runs all cells of a planned sweep, or of some series, and measures the scatter. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
-
-/* Output files of a verification: HDF5, JSON, JUnit, Markdown, and proposed known deviations. */
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* paths, set by the caller; NULL:

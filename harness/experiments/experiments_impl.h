@@ -64,7 +64,6 @@ status batch_belongs(const batch_label *, const shard_work *, const char *path, 
 
 element_measure *measures_add(measures *m, const char *name);
 void measures_point(element_measure *one, double at, double error);
-/* Returns the number of measures that have a wrong limit. */
 int measures_wrong_limits(const measures *m);
 
 /* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
@@ -150,15 +149,12 @@ measured_run measured_orders;  /* errors over the number of elements */
 measured_run measured_paths;   /* superposed rotations, and closed cycles */
 
 const char *certificate_part_name(int part);
-/* Returns a description of a part in one line. */
 const char *certificate_part_words(int part);
 /* Return the number of checks with this outcome, and the number of comparisons in all parts. */
 int certificate_counted(const certificate *, check_outcome);
 int certificate_compared(const certificate *);
 /* Returns the first failed check; NULL: none. */
 const check_result *certificate_broken(const certificate *);
-
-/* Divides work into batches and assigns batches to shards. */
 
 /* Assigns each batch to a shard: shard[batches] contains numbers from 0 to shards - 1. In
  * decreasing order of cost, each batch goes to the shard with the lowest cost so far. Returns 0, or
@@ -190,8 +186,6 @@ extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcom
 /* Plans the points: for every extreme, one point for each value of x. A point has a series for
  * every formulation, and a series has an outcome for each quantity. */
 status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
-
-/* Writes the outcomes of a sweep of extremes as text. */
 
 void extreme_table(FILE *to, const void *found); /* found: an extreme_sweep */
 
@@ -259,7 +253,6 @@ const char *rows_status_name(int status);
 
 enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 
-/* Writes the path of a batch that exists. */
 status batch_store_path(const batch_store *, int batch, char out[PATH_MAX], fault *f);
 
 /* Adds the results of the points from number `first` on. */
@@ -271,8 +264,6 @@ const tally_place *tally_at(const tally *, int formulation, int quantity, int li
 /* Returns the lower bound of a column (axis_index 0) or a line (1) of the map, as a value of its
  * axis. */
 double tally_edge(const tally *, int axis_index, int place);
-
-/* A sweep in a group of a results file. */
 
 /* Adds the results of the points from number `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
@@ -307,7 +298,6 @@ typedef struct beam_request {
     int component;
 } beam_request;
 
-/* Computes the section constants of the beam. */
 status beam_section(const beam_request *, section *out);
 /* Solves the beam and adds the error with respect to `exact` to the measure. The error is NAN if
  * there is no value; `words` then gives the reason at the first such point. Returns 0 if further
@@ -326,9 +316,7 @@ check_outcome checks_outcome(const check_results *);
 /* verbose: every check with its numbers. quiet: only the failed checks. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
                       int quiet);
-/* Writes tables for a publication, as LaTeX or Markdown. */
 void certificate_paper(FILE *to, int latex, const certificate *all, int count);
-/* Writes one line for each check and each measured error. */
 void certificate_csv(FILE *to, const certificate *all, int count);
 
 /* Sets `deviation` and `as_expected` of every outcome, and the counts. whole 1: no selection was
@@ -386,13 +374,10 @@ double integrators_distance(const cell_result *, const cell_result *other, int a
 double integrators_distance_of(const scene_quantity *, const quantity_result *,
                                const quantity_result *other);
 
-/* Evaluates the energy and the momenta of a motion. */
-
 /* For a completed run, computes the energy-balance error, the largest change of momentum, E/E0 and
  * the classification. E: energy; E0: energy after the loads have ended. */
 void integrators_drift(const integrators *, integrators_run *);
 
-/* Runs all planned motions and evaluates them. */
 status integrators_evaluate(integrators *, const sweep_request *, fault *);
 
 /* Observed orders of an integrator, from runs with repeatedly halved steps. */
@@ -481,7 +466,6 @@ void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, cons
 /* Writes the worst points. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
 
-/* Computes the values of all parameters from the values on the axes. */
 void ranges_points_values(const parameter_ranges *, const double at[],
                           double value[CASE_MAX_PARAMETERS]);
 /* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have as many digits as are necessary to
@@ -514,10 +498,7 @@ typedef struct point_reference {
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* Elements of a formulation under test. */
-
 typedef void test_elements_check(const test_element *s, check_results *c);
-/* Calls `check` for every test element. */
 void test_elements_each(const formulation *chosen, check_results *c, test_elements_check *check);
 
 /* Sets `formulations`, `meshes`, `quantities`, `left_out` and `point_cost` from the scenes of the

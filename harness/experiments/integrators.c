@@ -53,7 +53,6 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* Returns the index of the first step that ends after all loads have ended. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;

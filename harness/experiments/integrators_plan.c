@@ -143,7 +143,6 @@ static status add_run(integrators *p, const integrators_plan_request *q,
     return STATUS_OK;
 }
 
-/* Adds the energy at all stations as a quantity. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,

@@ -27,7 +27,6 @@ static json_t *choices_of(const parameter_type *p)
     return list;
 }
 
-/* Returns a bound of a parameter; null: none. */
 static json_t *bound_of(const parameter_type *p, double value)
 {
     const int none = p->choices != NULL || value <= -DBL_MAX || value >= DBL_MAX;

@@ -100,7 +100,6 @@ static int motion_at(const void *context, int i, double si, int j, double sj, do
     return 0;
 }
 
-/* Computes the generalised forces P^T f + T^T m. */
 static void forces_of(const line_place *p, const node_state x[], double F[])
 {
     const int n = p->at.s->coordinates;

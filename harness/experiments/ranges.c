@@ -103,7 +103,6 @@ typedef struct making {
     rows *out;
 } making;
 
-/* Returns the index of a quantity in the scene; -1: none. */
 static int quantity_of(const scene *s, const char *name)
 {
     for (int i = 0; i < s->quantities; i++)

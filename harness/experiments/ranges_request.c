@@ -227,7 +227,6 @@ static void write_reference(FILE *to, const tally *t, int q, char written[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Prints the number of points without a scene, and the reason at the first of these points. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;
@@ -365,7 +364,6 @@ static int has_unknown(const tally *t, int parts)
     return unknown;
 }
 
-/* Returns 1 if some fields cover several values of an axis. */
 static int is_coarse(const tally *t)
 {
     const int shown[] = {t->columns, t->lines};

@@ -185,7 +185,6 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the store `there`; NULL: the batches that the caller supplies. */
 static status take_all(range_sweep *s, const batch_store *there, fault *f)
 {
     const range_sweep_request *r = s->requested;

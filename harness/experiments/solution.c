@@ -80,7 +80,6 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stores the relative changes that were found while the mesh was chosen. */
 static status report_change(const solution_request *r, const solution_choice *why,
                             solve_result *out, fault *f)
 {

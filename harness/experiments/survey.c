@@ -67,7 +67,6 @@ static status look_at(parameter_ranges *r, const sweep *s, int index, survey_sel
     return STATUS_OK;
 }
 
-/* Removes formulations that cannot run or have no selected quantity. */
 static status keep_running(parameter_ranges *r, const survey_selected *w, fault *f)
 {
     int kept = 0, used = 0;

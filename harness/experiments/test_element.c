@@ -231,7 +231,6 @@ typedef struct way {
 
 static const char failure[] = "the functions return results";
 
-/* Returns 1 if the element gives results. */
 static int returns_values(const test_element *s, check_results *c)
 {
     node_state x[ELEMENT_MAX_NODES];

@@ -37,7 +37,6 @@ static void store_results(evaluation_run *v, const sweep *s, int series_index)
     v->reader->evaluated(v->reader->context, type);
 }
 
-/* Evaluates the series before index `end`. */
 static status evaluate_to(evaluation_run *v, const sweep *s, int end, fault *f)
 {
     int of = -1;

@@ -156,7 +156,6 @@ void applied_vector(const model *m, int element, const scene_load *load, double 
         vector[i] += along * (load->last[i] - load->vector[i]);
 }
 
-/* Returns the shape function of node k at x. */
 static double share_of(const model *m, int k, double x)
 {
     double part[ELEMENT_MAX_NODES];

@@ -356,7 +356,6 @@ static status pattern_of(const condensation *s, int count, const int list[], int
     return STATUS_OK;
 }
 
-/* Finds the position in K of each entry of the matrix of the unknowns. */
 static status find_sources(condensation *s, fault *f)
 {
     const sparse *a = &s->inside;

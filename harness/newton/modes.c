@@ -197,8 +197,8 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* If the sum of squares of translations is below this fraction of that of rotations and warping,
- * the translations are rounding errors. */
+/* If the sum of squares of the components is below this fraction of that of the measures of
+ * turns(), the components are rounding errors and those measures decide instead. */
 static const double in_place_part = 1e-16;
 
 status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,

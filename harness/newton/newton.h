@@ -1,5 +1,3 @@
-/* newton/: equations of a model, Newton's method, tangents, condensation, and outcomes of
- * analyses. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -174,14 +172,11 @@ int newton_convergence_tangent_stands(const newton_convergence *);
 
 typedef struct condensation condensation;
 
-/* Shape of a vibration mode or buckling mode. */
-
 typedef struct mode_shape {
     scene_family family;
     int half_waves;
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-/* Returns 1 if the mode has the family that the quantity requests. */
 int modes_in_family(const scene_mode *, const mode_shape *);
 const char *modes_family_name(scene_family);
 /* Sets *kind to flexural, torsional or flexural-torsional, according to the motion of shear centres
@@ -234,7 +229,6 @@ typedef struct outcome_spectrum {
     double *strained;
 } outcome_spectrum;
 
-/* Stations of a path: results of a static analysis. */
 typedef struct outcome_path {
     int stations, reached; /* number of stations, and number of computed stations */
     double *value;         /* [stations] path parameter or control coordinate */
@@ -346,7 +340,6 @@ typedef struct outcome_motion {
     outcome_end end;
 } outcome_motion;
 
-/* Extremum of a response between two requested frequencies. */
 typedef struct outcome_peak {
     int known;     /* 1: the extremum lies between two requested frequencies */
     int unbounded; /* 1: there is an undamped resonance at `hertz` */
@@ -665,7 +658,6 @@ typedef struct nodal_matrices {
     double *compliance, *stiffness; /* [stations x 36] entries of fixed components are zero, and
                                        entries that are not requested are NAN */
 } nodal_matrices;
-/* Event on a continued path. */
 typedef enum event_kind {
     EVENT_LIMIT_POINT, /* the load factor has an extremum */
     /* other branches start at this point; the analysis continues on the current branch */
@@ -841,7 +833,6 @@ void tangent_movable(const model *m, const node_tangent *t, movable *out);
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
-/* Equations of an element in the coordinates of the model. */
 typedef struct element_part {
     status outcome;
     fault why;
@@ -1001,9 +992,6 @@ history_mark history_here(const solve_result *);
 void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
-/* Identity of models. For example, two formulations give equal results if they differ only in
- * physics that the scene does not contain. */
-
 /* Hash of all data in the order in which they were added. */
 typedef struct identity {
     uint64_t part[2];
@@ -1021,7 +1009,6 @@ int identity_add_model(identity *, const model *);
  * They are in equilibrium with the rest of the structure. Between the ends, section_forces.h
  * computes them by a method that does not depend on the formulation. */
 
-/* State whose resultants are computed. */
 typedef struct internal_state {
     const model_state *s;
     const double *sigma; /* [elements x strains] stresses; NULL: the stresses of the state */
@@ -1138,8 +1125,6 @@ void predictor_reset(predictor *);
 /* Replaces the last state s by an extrapolation for `path`. If none is possible, s is not
  * changed. */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
-
-/* Newton's method for coordinates, strains and stresses together (N section 4). */
 
 typedef struct newton_run {
     analysis_context *c;

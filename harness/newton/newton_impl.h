@@ -200,8 +200,6 @@ void loads_drive(const equations *, const model_state *, double path, double dx[
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
-/* Batches of a few elements that are evaluated together. */
-
 /* Evaluation of one element. */
 typedef struct chunk_element {
     int index;     /* input: index of the element */
@@ -223,8 +221,6 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
  * unknown. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
-
-/* Stress-free strains of elements, in addition to the strains of the undeformed state. */
 
 /* Adds the free strain: the elongation, and the curvatures about the principal axes. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
@@ -279,9 +275,6 @@ int rotating_frame_lumps(const equations *);
 /* Computes the stiffness of the loads, for example of moments and of loads on offsets. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
-
-/* Evaluates strains and stresses of all elements before the loop that uses them, if the type
- * provides strain_many or stress_many without lanes. */
 
 /* Strains and stresses of all elements from one call. */
 typedef struct run_ahead {
@@ -356,7 +349,6 @@ void bordered_free(bordered *s);
 
 enum { CHAIN_JOINT = NODE_COORDINATES, CHAIN_LINK = (ELEMENT_MAX_NODES - 1) * CHAIN_JOINT };
 
-/* Data of an element that is added to a chain. */
 typedef struct chain_link {
     double A[CHAIN_LINK * CHAIN_JOINT];  /* [y x joint] */
     double F[CHAIN_LINK * CHAIN_LINK];   /* [y x y] symmetric */
@@ -500,8 +492,6 @@ enum { SYMMETRIC_MOST = CHAIN_LINK };
 
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
-
-/* Derivatives of elements in the undeformed state, which do not change. */
 
 /* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains]. For a
  * member with initial strains, also the first-order stresses [strains] of the element with fixed

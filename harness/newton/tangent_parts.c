@@ -1,4 +1,3 @@
-/* Expansion of a solution from the ends of members to all coordinates. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>

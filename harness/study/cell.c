@@ -183,7 +183,6 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 0 if a section is given by matrices, otherwise 1. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;

@@ -71,7 +71,6 @@ static int group_end(const state_matrices *s, int j)
     return end;
 }
 
-/* Modes of a state, normalised to unit mass, and their products with M. */
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
     double *share;          /* [modes] contribution of each mode to the followed shape */

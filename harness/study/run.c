@@ -191,7 +191,6 @@ static int columns_of(FILE *to)
     return size.ws_col - 1;
 }
 
-/* Writes a time in the form "45 s", "3 min" or "1 h 10 min". */
 static void write_time(double seconds, char *text, size_t size)
 {
     const int minutes = (int)(seconds / 60 + 0.5);

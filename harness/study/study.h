@@ -1,4 +1,3 @@
-/* study/: runs and their results, reference values, verdicts, cost coefficients, times. */
 #ifndef BEAMWORK_STUDY_H
 #define BEAMWORK_STUDY_H
 
@@ -101,7 +100,6 @@ typedef struct cell_result {
     solve_result solve;
 } cell_result;
 
-/* Sets the formulation, its options and the form of Newton's method in the request. */
 void cell_formulation(cell_request *, const formulation *chosen);
 /* Builds the valid scene of a case for given parameters, changed by the edit (NULL: unchanged). The
  * caller frees the scene, even after a failure. */
@@ -348,7 +346,6 @@ void sweep_text(const sweep_point *, const formulation *, const char *quantity,
 /* Returns 1 if the verdicts of a series affect the exit status: the formulation is accepted, named
  * or loaded, or the results are those of another program and the user requested this effect. */
 int sweep_gates(const sweep *, const series *);
-/* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s); /* returns the number of cells that this sweep runs */
 void sweep_series_free(series *);
@@ -597,8 +594,6 @@ int curve_error_finest(const series *, int quantity);
  * Returns the index of this series, with which others are compared; -1: none. */
 int curve_error_reference(const sweep *, int quantity);
 
-/* Location of data files: reference values, and programs that compute them. */
-
 /* Finds a data file or folder: next to the program or shared library, in the two folders above (a
  * clone), in share/beamwork of these two (an installation), or in share/beamwork of the prefix set
  * at build time. Returns 0 if it is in none of these. The path is then one next to the program. */
@@ -689,9 +684,6 @@ typedef struct follow_curves {
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 
-/* Glossary from the packed data: explanations of words of the program and the report
- * (reference/glossary.csv). */
-
 typedef struct glossary_entry {
     char *term;
     char *also;    /* other names, separated by '|'; "": none */
@@ -714,7 +706,6 @@ void glossary_free(glossary *);
 /* Finds the entry with this term or alternative name; NULL: none. Upper and lower case count as
  * equal, as do '_', '-' and blanks. */
 const glossary_entry *glossary_find(const glossary *, const char *word);
-/* Returns 1 if glossary_find treats the two words as equal. */
 int glossary_same(const char *a, const char *b);
 /* Copies part number `index` of "a|b|c". Returns 0 if there are fewer parts. */
 int glossary_part(const char *list, int index, char word[GLOSSARY_WORD]);
@@ -752,11 +743,9 @@ typedef struct equal_error {
 /* Returns 1 if the comparison includes the quantity: it is not a curve, and both series have a
  * reference value or an agreement. */
 int equal_error_includes(const sweep *s, const truths *t, int quantity);
-/* Returns the number of quantities in the comparison. */
 int equal_error_quantities(const sweep *s, const truths *t);
 /* Compares all these quantities for the relative error target `level`. */
 equal_error equal_error_at(const sweep *s, const truths *t, double level);
-/* Returns 1 if both series meet the target. */
 int equal_error_met(const equal_error *);
 
 /* At the last point of a planned sweep, keeps the quantities and formulations that are part of a
@@ -816,16 +805,12 @@ enum { OVERVIEW_TEXT = 24 };
 status overview_make(const sweep *s, const evaluation *j, overview *out, fault *f);
 void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
-/* Returns 1 if the row has an evaluated run. */
 int overview_evaluated(const overview *, int row);
-/* Returns 1 if the row is printed on a separate line. */
 int overview_shown(const overview *, int row);
 /* Writes the mark, for example "ok", "~3" or "!#2". It is readable without colours. utf8 1: uses
  * characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
 const char *overview_words(overview_mark mark);
-
-/* Known deviations of a user: rules in addition to the built-in list, with the same columns. */
 
 /* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. FAULT: the
  * file cannot be read. */
@@ -997,7 +982,6 @@ typedef struct progress {
 
 /* Here and below, `now` is the current time [s] of clock_wall_seconds. */
 progress progress_begin(FILE *to, const char *things, int count, double now);
-/* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "runs 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
  * to 1. If `share` is large enough, the remaining time is estimated from it. */

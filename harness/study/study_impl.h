@@ -52,11 +52,9 @@ void rules_free(rule *, int count);
  * memory. */
 status truths_reserve(truths *, int more, fault *f);
 
-/* Returns 1 if the selection of the sweep includes the quantity. */
 int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
                   const char *quantity);
 
-/* Verdicts on a limit that differs from the reference value. */
 enum { VERDICT_DEFECTS = 4 };
 extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
 /* Returns 1 if the rule explains one of these verdicts. */
@@ -91,8 +89,6 @@ int task_locks_acquire(task_locks *, const identity *, int task);
 
 status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
 status columns_strings(const table_columns *r, const char *column, char **out);
-
-/* Tasks of a run: the cells, and tasks that arise during the run. */
 
 typedef struct workload_task {
     int series, mesh;
@@ -232,8 +228,6 @@ const truth *truth_agreed(const truths *t, const case_type *type, const double v
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *key);
 
-/* Processes that run the cells of a sweep. */
-
 typedef struct worker {
     pid_t process;
     /* end of the pipe from which the output of the worker is read; -1: the worker is not running */
@@ -264,7 +258,6 @@ void worker_end(workload *, worker *);
  * the exit status (reference/accepted.csv). FAULT: the table is missing or damaged. */
 status accepted_read(const char *path, hid_t file, fault *f);
 
-/* Compares a series with the values stored for its meshes. */
 status agreements_add(const sweep *s, const truths *t, int index, evaluation *out, fault *f);
 
 /* Adds the verdicts from number `first` on to the coverages of an evaluation. */
@@ -309,7 +302,6 @@ status follow_events_rest(follow_state *, fault *);
 /* Among the cases of the run (NULL-terminated) and the built-in cases, finds a case by name; NULL:
  * none. */
 const case_type *user_names_case(const case_type *const run[], const char *name);
-/* Returns the quantity of the scene with this name; NULL: none. */
 const scene_quantity *user_names_quantity(const scene *s, const char *name);
 /* Write "; did you mean 'NEAR'?" with a case, formulation or quantity of a scene; if no name is
  * near, another remedy. */
@@ -317,8 +309,6 @@ const char *user_names_near_case(const case_type *const run[], const char *name,
                                  char text[FAULT_TEXT]);
 const char *user_names_near_formulation(const char *name, char text[FAULT_TEXT]);
 const char *user_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT]);
-
-/* Checks the consistency of the records of a run, without reference values. */
 
 /* Returns 1 if the counts, steps and corrections of a cell are consistent with each other and with
  * properties of every solution. Otherwise returns 0, and `why` describes the contradiction. newton:

@@ -227,7 +227,6 @@ static void plan_omissions(sweep *s, int point_index)
             find_omission(s, i);
 }
 
-/* Largest number of formulations at a point. */
 enum { MOST_FORMULATIONS = 64 };
 typedef struct chosen_cells {
     int count;
@@ -273,7 +272,6 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
     choose_stored(t, p, out);
 }
 
-/* Returns 1 if at least one quantity of the series is selected. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
                        select_words *words, char requested[])
 {

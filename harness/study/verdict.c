@@ -49,7 +49,6 @@ double verdict_error(const scene_quantity *q, double value, double truth_value)
     return scale > 0 ? (value - truth_value) / scale : value - truth_value;
 }
 
-/* Values on all meshes, and the failure of the finest mesh. */
 typedef struct verdict_history {
     int n[SERIES_MAX_MESHES];
     double value[SERIES_MAX_MESHES]; /* NAN: none */

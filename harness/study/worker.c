@@ -204,7 +204,6 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Returns 1 if the header is that of an unfinished task. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */

@@ -343,7 +343,6 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Lock of a problem; key 0: the entry is free. */
 typedef struct task_lock {
     _Atomic uint64_t key, check;
     atomic_int task;

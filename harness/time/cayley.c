@@ -257,7 +257,6 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Derivatives of r(s) and R(s) of a node. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;

@@ -1,4 +1,3 @@
-/* Impulses at the end of a step on masses with prescribed coordinates. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>

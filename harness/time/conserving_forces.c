@@ -189,8 +189,6 @@ void conserving_forces(conserving *s, const motion_state *from, model_state *now
     }
 }
 
-/* Loads at the middle of a step. */
-
 typedef struct loaded {
     conserving *s;
     const model_state *from, *now;

@@ -133,7 +133,6 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Generalised forces of a load with the factor 1. */
 typedef struct feedback_push {
     const model *m;
     const model_state *s;

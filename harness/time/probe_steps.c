@@ -1,4 +1,3 @@
-/* Probe steps: the state of a motion at a time inside a step, with its forces and energies. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* The coupled equations of the three stages. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -300,7 +299,6 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
     mat3_mul(R, B, out);
 }
 
-/* Damping forces of an element in a stage. */
 typedef struct damped {
     double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
     double gained[ELEMENT_MAX_STRAINS];

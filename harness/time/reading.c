@@ -1,4 +1,3 @@
-/* Values of quantities in a state. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>

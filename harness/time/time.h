@@ -1,4 +1,3 @@
-/* time/: integrators of transient analyses, inertia, and the analysis itself. */
 #ifndef BEAMWORK_TIME_H
 #define BEAMWORK_TIME_H
 
@@ -6,8 +5,6 @@
 #include "elements/shared/status.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-
-/* State of a motion at one time. */
 
 typedef struct motion_state {
     double time; /* [s] */
@@ -193,7 +190,6 @@ status motion_undefined(const scene *, const scene_quantity *, fault *);
 status about_turning(const model *, const outcome_about *, int node, sparse *K, sparse *G,
                      sparse *room, fault *);
 
-/* Known data of a state. */
 typedef struct reading {
     const equations *eq;
     const model_state *state; /* state; NULL: only compliances are read */

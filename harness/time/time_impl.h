@@ -83,8 +83,6 @@ double damping_power(const equations *, const double rate[]);
  * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* Probe steps: a probe step computes the state at a time inside a step. */
-
 /* Makes a probe step from the start of the step. */
 status probe_step(analysis_context *, motion_scheme *, const motion_state *from, double time,
                   motion_state *at, fault *);
@@ -95,8 +93,6 @@ typedef struct probe_point {
 } probe_point;
 status probe_read(const analysis_context *, const frame_masses *, const outcome_motion *,
                   const scene_quantity *, const probe_point *, double *out, fault *);
-
-/* Values of any quantity inside a step. */
 
 enum { PROBE_STEPS = 4 }; /* number of stored probe steps in a step: the first three and the last */
 
@@ -511,8 +507,6 @@ status checks_massless(const analysis_context *, const frame_masses *, const sce
  * the reason. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* An element or a spring in a step. */
-
 enum {
     DEFORMABLE_POINTS = 2, /* number of points between the ends of the step */
     DEFORMABLE_STRAINS = ELEMENT_MAX_STRAINS,
@@ -581,8 +575,6 @@ void drive_at(const equations *, const model_state *from, double time, double in
 /* Allocates the integrator. REFUSED: a coordinate has no inertia, or a member has an offset or a
  * released end. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
-
-/* Internals of the explicit integrator. */
 
 typedef struct explicit_scheme {
     motion_scheme base;
@@ -1084,8 +1076,6 @@ void consistent_mass_swing(const model *, const consistent_mass_parts *, double 
 status small_motions_of(const equations *, const frame_masses *, motion_state *now,
                         outcome_about *out, fault *);
 
-/* Times about which modes and harmonic analyses compute small motions. */
-
 typedef struct abouts {
     analysis_context *c;
     int analysis, next; /* next: index of the next time in the outcome */
@@ -1104,7 +1094,6 @@ status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
 /* Computes the states at the times inside a step, without its end. */
 status abouts_inside(abouts *, const motion_state *from, const motion_state *to, fault *);
-/* Stores the state if an analysis needs it. */
 status abouts_here(abouts *, const motion_state *now, fault *);
 
 /* Output of a motion at the requested times, which are independent of the ends of steps. If forces
@@ -1126,7 +1115,6 @@ status stations_alloc(stations *, fault *);
 void stations_free(stations *);
 /* Writes the stations inside a step, without its end. */
 status stations_inside(stations *, const motion_state *from, const motion_state *to, fault *);
-/* Writes the station at this time, if there is one. */
 status stations_here(stations *, const motion_state *now, const double balance[SCENE_BALANCES],
                      fault *);
 
@@ -1151,7 +1139,6 @@ void vertex_rates(const model *, const model_state *, int vertex, const double v
 
 /* Loads with feedback. */
 
-/* Starts the feedback of all loads that have it. */
 status feedback_begin(const equations *, fault *);
 /* Returns the number of loads of the scene if at least one of them has feedback, otherwise 0. */
 int feedback_count(const equations *);

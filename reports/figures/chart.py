@@ -14,8 +14,6 @@ from matplotlib.markers import MarkerStyle
 from reports.figures import style
 from reports.figures.svg import FONT, Image, MARKERS, number, said_of
 
-# Axes of charts: limits, positions of values, and a few round ticks.
-
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -24,7 +22,6 @@ def power(decade):
 
 
 def whole_ticks(low, high):
-    """Returns a few round whole numbers on a logarithmic axis."""
     decades = math.log10(high / low)
     if decades < 0.7:
         step = max(1, round((high - low) / 4))
@@ -63,7 +60,6 @@ class Axis:
         self.low, self.high = min([self.low, *values]), max([self.high, *values])
 
     def settle(self):
-        """Sets the limits slightly beyond the drawn values."""
         if not self.high >= self.low:
             self.low, self.high = 1, 10
         if self.log:
@@ -96,7 +92,6 @@ LETTER = 6.7  # mean width of a letter at a font size of 11 pixels [pixels]
 
 @functools.lru_cache(None)
 def marker_path(marker, size):
-    """Returns the outline of a marker about its centre as SVG path data."""
     form = MarkerStyle(marker)
     path = form.get_path().transformed(form.get_transform().scale(size))
     lines = path.to_polygons(closed_only=False)
@@ -117,7 +112,6 @@ def dashes(line):
 
 
 def colour(given):
-    """Returns the colour for SVG: a variable for the colour of a formulation, or the given colour."""
     return style.VARIABLES.get(given, given)
 
 
@@ -130,26 +124,23 @@ class Panel:
         self.curves, self.back, self.words, self.lows = [], [], [], []
 
     def plot(self, x, y, back=False, **look):
-        """Adds a curve. `look` may contain color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow and
-        marks. `marks` are the indices of the points with markers (default: all). If `back` is True, the curve is drawn
+        """`look` may contain color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow and marks.
+        `marks` are the indices of the points with markers (default: all). If `back` is True, the curve is drawn
         behind all others, without a label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))
 
     def level(self, y, words=""):
-        """Adds a dotted horizontal line with a label at its right end."""
         self.y.take([y])
         self.lows.append((y, words))
 
     def ground(self, y):
-        """Shades the area below y."""
         self.below = y
 
     below = None
 
     def note(self, x, y, words):
-        """Adds a label that ends at a point."""
         self.words.append((x, y, words))
 
     def cross(self, x, color, gid):
@@ -170,14 +161,14 @@ class Chart:
         self.panels, self.names = [], {}
 
     def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
-        """Adds a panel. `like` is a panel whose vertical axis the new panel shares."""
+        """`like` is a panel whose vertical axis the new panel shares."""
         y = like.y if like else Axis(ylog)
         self.panels.append(Panel(title, xlabel, ylabel, Axis(xlog, whole), y))
         self.panels[-1].shares = like is not None
         return self.panels[-1]
 
     def image(self, site, name):
-        """Returns the Image of the chart for the page. Also writes a figure for papers if --figures is given."""
+        """Returns the Image of the chart for the page."""
         image = Writer(self, site, name).image()
         site.paper.chart(self, name)
         return image
@@ -201,7 +192,6 @@ class Writer:
         return name
 
     def whose(self, gid):
-        """Returns the attributes of an SVG element that belongs to a formulation."""
         if not (gid or "").startswith("f|"):
             return ""
         _, key, *points = gid.split("|")
@@ -210,7 +200,6 @@ class Writer:
         return f' data-f="{escape(key)}"{index}'
 
     def line(self, points, look):
-        """Returns a curve with its markers."""
         drawn = " ".join(f"{number(x)},{number(y)}" for x, y in points)
         dash = dashes(look.get("linestyle", "-"))
         stroke = colour(look["color"]) if dash != "none" else "none"
@@ -232,7 +221,6 @@ class Writer:
         return f"<g{whose}>{line}</g>" if whose else line
 
     def lines(self, curves):
-        """Returns the SVG group of the curves [(points, look)]."""
         drawn = "".join(self.line(*curve) for curve in curves)
         return f'<g fill="none">{drawn}</g>' if drawn else ""
 

@@ -14,7 +14,7 @@ from reports.figures.style import plt
 
 FORMATS = ("pdf", "pgf", "png", "svg")
 FOLDER = "figures"  # subfolder of the report folder
-PIXELS = 96  # pixels per inch
+PIXELS = 96
 LEGEND = 3  # largest number of columns of a legend
 TEX = ("xelatex", "pdflatex", "lualatex")
 
@@ -40,7 +40,6 @@ class Paper:
             os.makedirs(self.folder, exist_ok=True)
 
     def wants(self, name):
-        """Returns True if the figure with this name is requested."""
         case = next((c for c in self.cases if name.startswith(c)), None)
         return self.formats and self.only in (None, case)
 
@@ -59,7 +58,7 @@ class Paper:
 
 
 def try_latex():
-    """Selects a LaTeX program. Raises Impossible if no program can measure text for PGF figures."""
+    """Raises Impossible if no program can measure text for PGF figures."""
     remedy = "run: sudo apt-get install texlive-latex-recommended texlive-pictures"
     found = next((t for t in TEX if shutil.which(t)), None)
     if not found:
@@ -97,7 +96,6 @@ def use(path):
 
 
 def figure_of(chart, sized):
-    """Returns the figure of a chart. If `sized` is True, the size is that of the style, otherwise that of the chart."""
     columns = min(chart.columns, len(chart.panels))
     rows = math.ceil(len(chart.panels) / columns)
     size = None if sized else ((chart.size[0] + 70) * columns / PIXELS, (chart.size[1] + 60) * rows / PIXELS)
@@ -117,7 +115,6 @@ def figure_of(chart, sized):
 
 
 def put_legend(figure, lines, names):
-    """Adds a legend below a figure, with as many columns as fit the width of the figure."""
     for columns in range(min(LEGEND, len(names)), 0, -1):
         legend = figure.legend(lines, names, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=columns)
         width = legend.get_window_extent(figure.canvas.get_renderer()).width
@@ -127,7 +124,6 @@ def put_legend(figure, lines, names):
 
 
 def legend_of(panels):
-    """Returns (lines, labels) of the curves of these panels, each label once, or None if there are no labels."""
     found = {}
     for axes in panels:
         for line, name in zip(*axes.get_legend_handles_labels()):
@@ -161,7 +157,6 @@ def draw(axes, panel):
 
 
 def scale(axis, of, set_scale, set_limits):
-    """Sets the limits and ticks of an axis of matplotlib to those of an axis of a chart."""
     set_scale("log" if of.log else "linear")
     set_limits(of.low, of.high)
     at, words = zip(*of.ticks()) if of.ticks() else ((), ())

@@ -1,4 +1,3 @@
-"""Error figures of cases, and their common parts."""
 import math
 
 import numpy as np
@@ -8,10 +7,10 @@ from reports import answers, data, verdicts
 from reports.figures import style
 from reports.figures.chart import Chart
 
-FLOOR = 1e-13  # errors below this value are round-off
+FLOOR = 1e-13
 NEARLY = 1e-10  # smaller errors are treated as zero
 CEILING = 1e3  # larger errors are not drawn
-MOST_CURVES = style.MOST  # largest number of formulations in a figure
+MOST_CURVES = style.MOST
 OPEN = "open: below the reference value's own digits"
 
 
@@ -59,7 +58,6 @@ def work_of(point):
 
 
 def against(point, name):
-    """Returns (label, function of a mesh, True for whole numbers) of an abscissa."""
     return {"elements": ("elements per member", lambda m: m.n, True),
             "time": ("time [ms]: set-up and solution", lambda m: 1e3 * m.seconds, False),
             "unknowns": ("unknowns", lambda m: m.free, True),
@@ -113,7 +111,6 @@ def telling(point, quantities):
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
-    """Returns the arguments of plot() for the curve of a formulation through these meshes, with the data of its markers."""
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
     columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
@@ -172,7 +169,6 @@ def slope_triangle(panel, shown, quantity):
 
 
 def draw_failures(site, panel, shown, quantity, where):
-    """Draws crosses on the upper edge for runs without a value."""
     for series in shown:
         look = site.styles.of(series.key)
         for mesh in series.meshes:
@@ -181,15 +177,12 @@ def draw_failures(site, panel, shown, quantity, where):
 
 
 def front_line(point, quantity):
-    """Returns the times and errors of the front as a step curve."""
     least = digits_of(point, quantity) or FLOOR
     best = [(1e3 * m.seconds, max(clipped(m.errors[quantity]), least))
             for _, m in answers.front(point, quantity)]
     corners = [(b[0], a[1]) for a, b in zip(best, best[1:])]
     return [p for pair in zip(best, corners + [None]) for p in pair if p]
 
-
-# Figures of a case: errors of one quantity, errors of the other quantities, and curves of paths.
 
 ONE = (520, 280)  # size of the axes of a figure with one panel [pixels]
 TWO = (400, 260)  # size of the axes of each of two panels side by side [pixels]

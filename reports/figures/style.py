@@ -1,7 +1,8 @@
-"""Colours and markers of formulations. A new formulation does not change those of others.
+"""Colours and markers of formulations.
 
 The colours are distinguishable without colour vision (Okabe and Ito, Tol). In dark mode, each colour is replaced by a
-lighter colour of the same hue: svg.py writes a variable, which the style sheet defines (sheet())."""
+lighter colour of the same hue: svg.py writes a variable, which the style sheet defines (sheet()).
+"""
 import zlib
 
 import matplotlib
@@ -24,7 +25,7 @@ TABLE = {
     "sheet_third": ("#882255", "#d8639b", "<"),
     "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
 }
-# Colours and markers of integrators of motions. The colours are those of the table above.
+# Colours and markers of integrators of motions.
 SCHEMES = {
     "alpha": ("#0072b2", "#4a9fe0", "o"), "conserving": ("#d55e00", "#ff8c42", "s"),
     "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
@@ -36,7 +37,7 @@ RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"
 RESERVE_MARKERS = "hpd8H"
 MOST = 8  # number of curves of a figure that are initially shown
 LAST = ("sheet_third_printed", "beamw_vlasov", "beamw_first")  # shown only if there is room
-# Line style of an option. The colour is that of the formulation.
+# Line style of an option.
 LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
 
@@ -46,7 +47,6 @@ MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
 
-# Text in figures is stored as text, not as outlines, so that it can be searched.
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
@@ -74,14 +74,12 @@ def look(key):
 
 
 def class_of(key):
-    """Returns the class in the style sheet that puts the marker of a formulation before its name."""
     colour, _, marker = look(key)
     number = [light for light, _ in COLOURS].index(colour)
     return f"m{number}" + ("" if key.partition(":")[0] in TABLE else marker)
 
 
 def corners(marker):
-    """Returns the polygon of a marker in percent of a square, for clip-path."""
     form = MarkerStyle(marker)
     outline = form.get_path().transformed(form.get_transform()).to_polygons(closed_only=True)[0]
     half = 2.2 * np.abs(outline).max()
@@ -89,7 +87,6 @@ def corners(marker):
 
 
 def marks():
-    """Returns the rules of the style sheet for the classes of class_of()."""
     known = [(f"m{i}", i, marker) for i, (_, _, marker) in enumerate(TABLE.values())]
     reserve = [(f"m{i}{marker}", i, marker) for i in range(len(TABLE), len(COLOURS))
                for marker in RESERVE_MARKERS]
@@ -99,7 +96,6 @@ def marks():
 
 
 def sheet():
-    """Returns the rules of the style sheet for formulations: colour variables for light and dark pages, and markers."""
     light, dark = (":root { " + " ".join(f"--f{i}: {p[k]};" for i, p in enumerate(COLOURS)) + " }"
                    for k in (0, 1))
     return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n{marks()}"
@@ -110,7 +106,7 @@ def line_of(options):
 
 
 class Styles:
-    """Styles of formulations. `keys` are the formulation keys of a results file, in any order and possibly repeated."""
+    """`keys` are the formulation keys of a results file, in any order and possibly repeated."""
 
     def __init__(self, keys):
         self.order = sorted(set(keys))

@@ -18,15 +18,12 @@ from markupsafe import Markup, escape
 
 from reports.figures import style
 
-# Markers of charts and common attributes of curves, each of which is defined once in a page.
-
 MARKERS = {}  # definitions of the markers of charts by identifier
 CURVE = re.compile(r'stroke="([^"]*)"((?: [\w-]+="[^"]*")*) '
                    r'style="(marker(?:-mid)?):url\(#(\w+)\)"')
 
 
 def markers_in(markup):
-    """Returns the identifiers of the chart markers in the markup."""
     return sorted(set(re.findall(r"marker(?:-mid)?:url\(#(\w+)\)", markup)) & set(MARKERS))
 
 
@@ -126,13 +123,11 @@ def said_of(told):
 
 
 def number(text, digits=1):
-    """Returns a coordinate with at most this number of decimals, in its shortest form."""
     short = f"{float(text):.{digits}f}".rstrip("0").rstrip(".")
     return "0" if short in ("-0", "") else short
 
 
 def path(text, digits):
-    """Returns the commands of a path with rounded numbers and without redundant spaces."""
     rounded = NUMBER.sub(lambda found: number(found.group(), digits), text)
     return re.sub(r"\s*([MLCQzZ])\s*", r"\1", " ".join(rounded.split())).replace(" -", "-")
 
@@ -176,7 +171,7 @@ def dressed(element, fixed):
 
 
 class Writer:
-    """Writes one figure. `prefix` is the start of its identifiers, which is unique in the page."""
+    """`prefix` is the start of its identifiers, which is unique in the page."""
 
     def __init__(self, root, prefix):
         text = ElementTree.tostring(root, encoding="unicode")
@@ -232,7 +227,6 @@ class Writer:
 
     @staticmethod
     def joined(children):
-        """Joins consecutive unfilled paths with the same attributes into one path."""
         out = []
         for child in children:
             tag, own, _, _ = child
@@ -247,7 +241,6 @@ class Writer:
 
     @staticmethod
     def share(own, children):
-        """Moves the attributes that all children have in common to their parent, unless it has such an attribute."""
         drawn = [c for c in children if c[0] != "defs"]
         for name in INHERITED:
             values = {c[1].get(name) for c in drawn}
@@ -284,7 +277,6 @@ def short(svg, name):
 
 
 def alone(markup):
-    """Returns the SVG of a figure as a separate file."""
     names = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
     used = [MARKERS[m] for m in markers_in(markup)]
     markup = markup.replace("</svg>", f"<defs>{''.join(used)}</defs></svg>") if used else markup
@@ -293,12 +285,10 @@ def alone(markup):
 
 
 def handles_of(legend):
-    """Returns the handles of a legend. matplotlib 3.7 renamed this attribute."""
     return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
 def tag_legends(figure):
-    """Assigns each entry of the legends to the formulation whose curve the entry names."""
     owners = {}
     for axes in figure.axes:
         for artist in axes.get_children():

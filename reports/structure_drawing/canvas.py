@@ -13,12 +13,10 @@ def number(value):
 
 
 def length(value):
-    """Returns a length in text form, in m or, if it is small, in mm."""
     return f"{number(value)} m" if abs(value) >= 0.5 or value == 0 else f"{number(1e3 * value)} mm"
 
 
 def vector(values, unit):
-    """Returns a vector in text form: the magnitude if the vector is along an axis, otherwise all three components."""
     along = [v for v in values if v]
     said = number(abs(along[0])) if len(along) == 1 else f"({', '.join(map(number, values))})"
     return f"{said} {unit}"
@@ -35,15 +33,12 @@ WAYS = [np.array([np.cos(a), np.sin(a)]) for a in np.arange(8) * np.pi / 4]
 
 
 def boxes_overlap(a, b):
-    """Returns the area that two boxes (x0, y0, x1, y1) share."""
     width = min(a[2], b[2]) - max(a[0], b[0])
     height = min(a[3], b[3]) - max(a[1], b[1])
     return max(width, 0) * max(height, 0)
 
 
 class Canvas:
-    """Collects the shapes of a drawing, from which `finish` makes the figure."""
-
     def __init__(self):
         self.faces, self.draws, self.points, self.labels, self.boxes = [], [], [], [], []
 
@@ -80,7 +75,6 @@ class Canvas:
         self.draws.append(draw)
 
     def area(self, points, colour, edge=INK, width=0.8, mark=None, order=4):
-        """Adds a polygon in front of the members."""
         self.occupy(np.vstack([points, points[:1]]))
 
         def draw(axes):
@@ -102,7 +96,6 @@ class Canvas:
         self.draws.append(draw)
 
     def arrow(self, points, colour, width=1.6, mark=None, head=7):
-        """Adds an arrow along a polyline, with its head at the last point."""
         points = np.asarray(points)
         self.occupy(points)
         tail, tip = points[-2], points[-1]

@@ -104,7 +104,6 @@ def mass(node):
 
 
 def warping(scene):
-    """Lists the nodes at which warping is restrained, shared or free, or the members if their ends at a node differ."""
     at = {}
     for member, end, word in ends_that_warp(scene):
         at.setdefault(member.ends[end], []).append((word, member.name))
@@ -122,7 +121,6 @@ def warping(scene):
 
 
 def shortened(lines):
-    """Returns at most MOST lines that are not empty, followed by a line with the number of omitted lines."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 
@@ -145,7 +143,6 @@ def describe(scene):
 
 
 def counts(scene):
-    """Describes the numbers of members and rigid bodies, and whether members are curved and sections have a shape."""
     bodies = {n.part_of for n in scene.nodes.values() if n.part_of}
     several = ((len(scene.members), "member"), (len(bodies), "rigid body"))
     words = [f"{n} {what if n == 1 else {'rigid body': 'rigid bodies'}.get(what, what + 's')}"

@@ -1,4 +1,3 @@
-"""Draws a scene as a figure."""
 import itertools
 
 import numpy as np
@@ -6,14 +5,11 @@ import numpy as np
 from reports.structure_drawing import geometry, joints, loads, members
 from reports.structure_drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
-# Main dimensions of a structure, and its axes.
-
 CLEAR = 13  # distance between a dimension line and the drawing [pt]
 SMALL = 0.02  # dimensions below this fraction of the largest are not drawn
 
 
 def edges(low, high, axis):
-    """Returns the four edges parallel to an axis of the box from `low` to `high` [4 x 2 x 3]."""
     others = [i for i in range(3) if i != axis]
     out = []
     for corner in itertools.product((0, 1), repeat=2):
@@ -25,7 +21,6 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """Draws the dimension line of the extent along an axis, below the drawing or to its right."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -62,7 +57,7 @@ def put_sizes(canvas, view, points):
 
 
 def put_axes(canvas, view):
-    """Draws the axes x, y, z in the lower left corner. An axis that points at the reader is drawn as a dot."""
+    """An axis that points at the reader is drawn as a dot."""
     low, _ = canvas.extent()
     at = low + [-16, -12]
     for axis, name in enumerate("xyz"):
@@ -119,7 +114,7 @@ def thickness_words(section):
 
 
 def put_section(canvas, name, section, left):
-    """Draws the section as seen along x, with y upwards and z to the right. Returns the position of its right edge."""
+    """Returns the position of its right edge."""
     polygons = geometry.outline(section)
     both = np.vstack(polygons)[:, ::-1]  # z is horizontal, y vertical
     low, high = both.min(axis=0), both.max(axis=0)
@@ -152,7 +147,6 @@ def put_section(canvas, name, section, left):
 
 
 def sections_drawn(scene):
-    """Returns the names of at most MOST sections with a known shape, without repeated shapes."""
     out = {}
     for member in scene.members.values():
         for name in member.sections:
@@ -212,7 +206,6 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes or, if these are too many, of the nodes with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:
@@ -222,7 +215,6 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Returns True if the rotation axis of the scene is near enough to be drawn."""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))

@@ -1,4 +1,3 @@
-"""Undeformed positions of members and their sections in space."""
 import itertools
 import math
 from dataclasses import dataclass
@@ -26,8 +25,6 @@ def triad(x, y):
 
 
 def chord(k, s):
-    """Returns the position at the length s on an arc with torsion and curvature k [1/m], in the axes of the triad at its
-    start."""
     w = np.linalg.norm(k)
     e = np.array([1.0, 0, 0])
     if w * s < 1e-9:
@@ -38,7 +35,6 @@ def chord(k, s):
 
 
 def arc_length(k, distance):
-    """Returns the length of the arc with torsion and curvature k [1/m] whose ends are this distance apart."""
     length = distance
     for _ in range(60):
         length += distance - np.linalg.norm(chord(k, length))
@@ -67,12 +63,10 @@ def rectangle(y, z, height, width):
 
 
 def meet(walls):
-    """Returns True if the walls have a common point, in which case an open section does not warp."""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
 def warps(section):
-    """Returns True if the section has a warping constant other than zero."""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0

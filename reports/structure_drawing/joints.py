@@ -8,7 +8,6 @@ LINKED = 1.1  # line width of constraints [pt]
 
 
 def put_offsets(canvas, view, scene):
-    """Draws a rigid arm from each node to the end of a member that is offset from it."""
     for name, member in scene.members.items():
         for end, (node, offset) in enumerate(zip(member.ends, member.offset)):
             if offset.any():
@@ -26,7 +25,6 @@ def words_of(one):
 
 
 def put_constraint(canvas, view, scene, one):
-    """Draws dashed lines from the first node to the other nodes, and the outline of a diaphragm."""
     points = np.array([scene.nodes[name].position for name in one.nodes])
     seen = view(points)
     path = [p for other in seen[1:] for p in (seen[0], other, seen[0])]

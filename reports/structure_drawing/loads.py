@@ -39,7 +39,6 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Returns the magnitude of a load as text, or both magnitudes if the load varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)
@@ -78,12 +77,10 @@ def beside_member(flat, way, gravity):
 
 
 def in_fixed(load, line, v):
-    """Returns the vector v of a load on a member in fixed axes."""
     return line.axes[0].T @ v if load.member_axes else v
 
 
 def point_on(line, places):
-    """Returns points of a member at fractions of its length [n x 3]."""
     share = np.linspace(0, 1, len(line.points))
     return np.array([np.interp(places, share, line.points[:, i]) for i in range(3)]).T
 
@@ -98,8 +95,7 @@ def put_within(canvas, view, load, line):
 
 
 def put_along(canvas, view, load, line, told):
-    """Draws arrows that point to the line of a member, and a thin line through their tails. `told` contains labels that
-    have already been drawn."""
+    """`told` contains labels that have already been drawn."""
     parts = np.linspace(0.03, 0.97, ALONG)[:, None]
     begin, end = load.within or (0, 1)
     ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)

@@ -29,7 +29,6 @@ def is_thin(strip):
 
 
 def middle_line(strip):
-    """Returns the middle line of a thin polygon with four corners [2 x 2]."""
     a, b = np.linalg.norm(strip[1] - strip[0]), np.linalg.norm(strip[2] - strip[1])
     return np.array([(strip[0] + strip[3]) / 2, (strip[1] + strip[2]) / 2]) if a > b else \
         np.array([(strip[0] + strip[1]) / 2, (strip[2] + strip[3]) / 2])
@@ -40,7 +39,6 @@ def put_polygon(canvas, view, corners, colour, edge=INK):
 
 
 def put_solid(canvas, view, line, here, there):
-    """Draws one polygon of a section along the member."""
     if len(here) == 4 and is_thin(here) and is_thin(there):
         a, b = middle_line(here), middle_line(there)
         sides, _ = geometry.prism(line, a, b)
@@ -116,7 +114,6 @@ def put_warping(canvas, view, scene, lines):
 
 
 def put_bodies(canvas, view, scene):
-    """Draws rigid bodies: convex hulls of nodes that move together, and rods between parts that are far from each other."""
     for name, node in scene.nodes.items():
         own = [n.position for n in scene.nodes.values() if n.part_of == name]
         if not own or node.part_of:
@@ -192,15 +189,12 @@ def put_springs(canvas, view, scene):
 
 
 def put_ground(canvas, at, away):
-    """Draws a hatched line normal to a direction."""
     way = away / np.linalg.norm(away)
     across = np.array([-way[1], way[0]])
     canvas.line([at - 11 * across, at + 11 * across], INK, 1.3)
     for k in np.linspace(-9, 11, 6):
         canvas.line([at + k * across, at + (k - 4) * across + 5 * way], INK, 0.7)
 
-
-# Supports of a structure: clamps, pins, fork supports and single components.
 
 PLATE = 15  # half the side of the plate of a clamp [pt]
 HATCHES = 9  # number of hatching lines of a plate
@@ -216,7 +210,6 @@ def held_of(scene, node):
 
 
 def rigid(scene, name):
-    """Returns the nodes that move with a node, including the node itself."""
     return [name] + [n.name for n in scene.nodes.values() if n.part_of == name]
 
 
@@ -232,8 +225,7 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """Draws a plate normal to a member in space and returns 1. Draws nothing and returns 0 if the plate would be seen
-    edge-on."""
+    """Draws nothing and returns 0 if the plate would be seen edge-on."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale
@@ -261,7 +253,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """Draws a triangle on the side `way` of the node. `roller` is True if the support can slide."""
+    """`roller` is True if the support can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,

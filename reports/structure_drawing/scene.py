@@ -17,7 +17,7 @@ class Turn:
 
 @dataclass
 class Node:
-    """A node. `position` is in [m], `held` are the components that do not move, and `driven` is {component: motion}."""
+    """`position` is in [m], `held` are the components that do not move, and `driven` is {component: motion}."""
     name: str
     position: np.ndarray
     part_of: str = ""
@@ -32,8 +32,8 @@ class Node:
 
 @dataclass
 class Member:
-    """A member. `y` is the direction of the y axis of its section. `released` contains the names of the released
-    components for each end. `warping` contains "fixed", "free", "shared" or "" for each end."""
+    """`y` is the direction of the y axis of its section. `released` contains the names of the released components for
+    each end. `warping` contains "fixed", "free", "shared" or "" for each end."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both ends
@@ -120,7 +120,6 @@ def numbers(values):
 
 
 def words_of(said):
-    """Returns a word, or the words of a list, as a list."""
     return said if isinstance(said, (list, tuple)) else [said]
 
 
@@ -165,7 +164,7 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    """Reads a load. Returns None for a temperature, which has no arrow."""
+    """Returns None for a temperature, which has no arrow."""
     kind = next((k for k in KINDS if k in said), None)
     if kind is None:
         return None
@@ -211,7 +210,6 @@ def read_spin(analyses):
 
 
 def nodes_asked(said):
-    """Returns the names of the nodes at which quantities are defined."""
     own = {name: next(iter(what.values())) for name, what in said["analyses"].items()}
     out = set()
     for quantity in (said.get("quantities") or {}).values():

@@ -1,4 +1,3 @@
-"""The first statements on the page of a sweep: the ranges in which each formulation is within the tolerance."""
 from dataclasses import dataclass, field
 
 from reports.sweep import boxes, gather, stored
@@ -150,7 +149,6 @@ class Group:
 
     @property
     def alike(self):
-        """Returns True if all answers have equal numbers of points within the tolerance."""
         return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
 
     @property
@@ -163,7 +161,6 @@ class Group:
         return sorted(found, key=lambda row: -row[1].error)
 
     def common(self, name):
-        """Returns a range that all answers have in common, or None."""
         found = {(r.mesh, r.box) if r else None for r in (getattr(a, name) for a in self.answers)}
         return getattr(self.answers[0], name) if len(found) == 1 else None
 
@@ -238,13 +235,10 @@ def references(sweep, found):
     return rows
 
 
-# Formats ranges, boxes and counts as text.
-
 SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
 def count(number):
-    """Returns a count in text form, with small numbers as words."""
     return SMALL[number] if number < len(SMALL) else f"{number:,}".replace(",", "\u202f")
 
 
@@ -253,12 +247,10 @@ def plenty(number):
 
 
 def many(number, noun):
-    """Returns a count with its noun in the singular or plural."""
     return f"{plenty(number)} {noun}" + ("s" if number != 1 else "")
 
 
 def percent(share):
-    """Returns a share in percent in text form. 0 and 100 are printed only if they are exact."""
     value = 100 * share
     if 0 < value < 1:
         return "less than 1 %"
@@ -268,7 +260,6 @@ def percent(share):
 
 
 def error(value):
-    """Returns the magnitude of a relative error in percent."""
     value = abs(value)
     if value == float("inf"):
         return "no solution"

@@ -40,7 +40,6 @@ class Box:
 
     @property
     def share(self):
-        """Returns the share of all points that are in the box and have a reference value."""
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
@@ -73,7 +72,6 @@ class Choices:
         return cls(member, cost, rows)
 
     def rows(self, cost):
-        """Returns the rows of the choices with this number of conditions."""
         return np.flatnonzero(self.cost == cost)
 
 
@@ -159,7 +157,6 @@ class Search:
         return good, bad
 
     def two(self, a, b):
-        """Tries all choices on two axes."""
         first, second = self.choices[a], self.choices[b]
         good, bad = (first.member @ self.reduced(t, (a, b), {}) @ second.member.T
                      for t in (self.good, self.bad))
@@ -230,7 +227,6 @@ class Search:
         self.ascend()
 
     def box(self, cost, chosen):
-        """Returns the Box of a choice, {axis: row}, with `cost` conditions."""
         good, bad = (float(self.reduced(t, (), chosen)) for t in (self.good, self.bad))
         parts = [None] * self.good.ndim
         for axis, row in chosen.items():

@@ -40,7 +40,6 @@ class Parts:
         return np.searchsorted(self.cuts, values, side="right")
 
     def name(self, part):
-        """Returns the label of a part."""
         if self.axis.words:
             return self.axis.words[part]
         if self.exact and self.low[part] == self.high[part]:
@@ -219,12 +218,10 @@ class Gathered:
 
     @property
     def parts(self):
-        """Returns the parts of all axes."""
         return self.lattices[0].parts
 
     @property
     def judged(self):
-        """Returns the number of points with a reference value."""
         return int(self.known[:, -1].sum())
 
     @property
@@ -303,7 +300,6 @@ def take_winners(into, sweep, piece, cell, asked, reached):
 
 
 def take_outcomes(into, sweep, piece):
-    """Counts the kinds of reference values, their uncertainties, and the outcomes of the runs."""
     for k in range(len(sweep.kinds)):
         into.kinds[:, k] += (piece.kind == k).sum(axis=0)
     there = ~np.isin(piece.kind, sweep.without)

@@ -30,7 +30,6 @@ def ink(fill):
 
 
 def steps(count):
-    """Returns this number of colours, from light (few elements) to dark (many elements)."""
     at = np.linspace(0.95, 0.25, count) if count > 1 else [0.8]
     return [to_hex(colormaps["viridis"](x)) for x in at]
 
@@ -113,7 +112,6 @@ def ticks(part, field, room):
 
 
 def title_of(part):
-    """Returns the name of an axis with its unit."""
     axis = part.axis
     return axis.name + (f" [{axis.unit}]" if axis.unit not in ("", "1") else "")
 
@@ -186,7 +184,6 @@ class Map:
         return out + (text(4, 12, title, ' font-weight="bold"') if title else "")
 
     def image(self, name, drawn, title=""):
-        """Returns the Image drawn by fields() or dots()."""
         width = max(self.left + self.size[0] + RIGHT, 7.5 * len(title) + 8)
         above = 0 if title else TOP - 6 if isinstance(self.y, list) else TOP - 22
         height = TOP + self.size[1] + BELOW - above

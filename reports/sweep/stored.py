@@ -46,8 +46,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Worst:
-    """One of the worst points of a formulation. `quantity` is empty if there is no solution (see status). `error` is
-    relative. `scene` is the name of the stored scene file, or empty."""
+    """`quantity` is empty if there is no solution (see status). `error` is relative. `scene` is the name of the
+    stored scene file, or empty."""
 
     point: int
     formulation: str
@@ -112,7 +112,6 @@ class Sweep:
         return [k for k, name in enumerate(self.kinds) if name.startswith(NONE)]
 
     def outcomes(self, names):
-        """Returns the numbers of the outcomes with these names."""
         return [s for s, name in enumerate(self.statuses) if name in names]
 
     @property
@@ -147,7 +146,6 @@ class Sweep:
             yield at
 
     def read(self, names, step):
-        """Yields (index of the first point, [rows of each table in `names`]) for pieces of at most `step` points."""
         step = max(1, step)
         try:
             with h5py.File(self.path) as file:
