@@ -8,7 +8,6 @@ ACCEPTED_COLUMNS = "formulation,since,version".split(",")
 
 
 def read_accepted(path):
-    """Returns the rows of the table: name of the formulation, date and version of its acceptance."""
     rows, seen = [], {}
     for number, row in read_csv(path, ACCEPTED_COLUMNS):
         where = f"{path.name}:{number}"

@@ -7,7 +7,6 @@ GLOSSARY_COLUMNS = "term,also,group,meaning,see".split(",")
 
 
 def looked_up(word):
-    """Returns a word in the form in which `beamwork explain` compares words."""
     return " ".join(re.split(r"[ _-]+", word.lower()))
 
 

@@ -39,7 +39,6 @@ def fnv1a(text):
 
 
 def read_defaults(path):
-    """Returns {case: [(parameter, default, choices)]} in the order of the table."""
     cases = {}
     for number, row in read_csv(path, ["case", "parameter", "value", "choices"]):
         table = cases.setdefault(row["case"], [])
@@ -159,12 +158,10 @@ def read_truths(folders, defaults):
 
 
 def scene_names():
-    """Returns the scenes of cases/examples, which have verdicts like the cases."""
     return [path.stem for path in (pathlib.Path(__file__).resolve().parents[1] / "cases/examples").glob("*.yaml")]
 
 
 def read_findings(path, defaults):
-    """Returns the entries of the list of known deviations, one for each cause."""
     rows, seen = [], {}
     for number, row in read_csv(path, FINDING_COLUMNS):
         where = f"{path.name}:{number}"

@@ -11,7 +11,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import defaults  # noqa: E402
 
-SIZES = ("height", "width", "web_thickness", "flange_thickness")  # dimensions of the channel section
+SIZES = ("height", "width", "web_thickness", "flange_thickness")
 
 
 class NotDerivable(Exception):
@@ -23,7 +23,6 @@ def numbers(given):
 
 
 def channel_section(case, given):
-    """Returns (section, all parameters) of a case with the channel section."""
     from reference.derive import column
     if given.get("section_data") == "printed" and any(name in given for name in SIZES):
         raise NotDerivable("printed section data belong to the default sizes")
@@ -155,8 +154,6 @@ CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "yo
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
-# For each case: the parameters that may differ from their defaults, the solver, and the program on which the solver is
-# based.
 SOLVERS = {
     "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
     "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),
@@ -193,7 +190,6 @@ SOLVERS = {
 
 
 def solve(case, text):
-    """Yields (quantity, value, unit, relative uncertainty, convention) at the parameters `name=value;...` in `text`."""
     given = dict(item.split("=", 1) for item in text.split(";") if item)
     if case not in SOLVERS:
         raise NotDerivable(

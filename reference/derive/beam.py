@@ -44,7 +44,7 @@ class Beam:
         self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
 
     def scaled(self, length, force):
-        """Returns the beam in units of length and force. Stiffnesses that may be infinite are replaced by compliances."""
+        """Stiffnesses that may be infinite are replaced by compliances."""
         moment = force * length
         s = Scaled()
         s.length, s.warps = self.length / length, self.EIw > 0
@@ -68,7 +68,6 @@ class Scaled:
         return 9 if self.warps else 7
 
     def _twist(self, torque, rigidity, N, a):
-        """Returns kx, computed from kx - a = f (Ny, Nz, Mw), or from Mw = 0 in uniform torsion."""
         f = self.f[2]
         if not self.warps:
             scale, given = rigidity, torque
@@ -84,7 +83,6 @@ class Scaled:
         return k
 
     def slope(self, y, p):
-        """Returns dy/ds for s in [0, 1], with y [states, many] and p = (F, m0) [6, many]."""
         R, F = rotation(y[3:7]), p[:3]
         ys, zs = self.centre
         m = p[3:] - np.cross(y[:3], F, axis=0)
@@ -136,7 +134,6 @@ class Scaled:
 
 
 def rotation(q):
-    """Returns the rotation matrices [3, 3, ...] of unit quaternions [4, ...]."""
     w, x, y, z = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],

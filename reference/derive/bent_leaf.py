@@ -30,8 +30,6 @@ def integral(F, e, low, f):
 
 
 def solved(travel):
-    """Returns the force F and the angle e at the point of inflection for a displacement of the stage."""
-
     def missing(F, e):
         root = sqrt(sin(e))
         return (integral(F, e, root, lambda sine: 1) / LENGTH - mpf(1) / 2,
@@ -41,7 +39,6 @@ def solved(travel):
 
 
 def stress(travel):
-    """Returns the stress at the clamp, which is the largest stress."""
     F, e = solved(travel)
     return E * THICK / 2 * curvature(F, e, sqrt(sin(e)))
 

@@ -80,8 +80,6 @@ def polynomial(lam, coefficients):
 
 
 def bimoments(lam, loads):
-    """Returns two dictionaries of bimoments: those due to unit stresses (and unit angles, for the keys of `loads`), and
-    those due to unit twist rates at the ends."""
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
@@ -98,8 +96,6 @@ def bimoments(lam, loads):
 
 
 def coefficients(lam, loads):
-    """Returns the values in the order of the table: A for pairs of unit stresses, b for a stress and a twist
-    variable, and P0 for pairs of twist rates at the ends."""
     B, ends = bimoments(lam, loads)
     T = {}
     for name in B:

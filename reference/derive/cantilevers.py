@@ -1,4 +1,3 @@
-"""Cantilevers under dead tip loads at large displacements: the geometrically exact beam of beam.py."""
 import math
 
 import numpy as np
@@ -86,7 +85,6 @@ def bend_45(torsions=("exact", "polar"), forces=(600, 300), form=lambda beam: be
 
 
 def roll_up(all_turns=(1, 0.25, 2)):
-    """Yields the rows of a cantilever that is rolled up by an end moment. The tip is at x = L sin(angle)/angle."""
     for turns in all_turns:
         angle = 2 * math.pi * turns
         value = 0.0 if turns >= 1 and turns == int(turns) else math.sin(angle) / angle

@@ -15,7 +15,7 @@ from reference.derive.beam import STEP, chebyshev, rotation
 from reference.derive.channel_cantilever import LENGTH, channel_beam
 
 DENSITY, INTERVALS, NODES = 7800.0, 6, 12
-STATES = 15  # number of states: 9 of the beam, F and m0
+STATES = 15
 RELATIVE = 1e-8
 
 

@@ -23,7 +23,7 @@ PRINTED = {
 
 
 def channel_data(**given):
-    """Returns the section of c_column and moment_buckling. `given` contains parameters that differ from the defaults."""
+    """`given` contains parameters that differ from the defaults."""
     at = defaults.decimals("c_column", given)
     s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]
@@ -95,7 +95,6 @@ def _kinetic(s, k, shear, rotary):
 
 
 def _ratios(a, b):
-    """Returns the eigenvalues of B x = nu A x, where A is positive definite."""
     l = inverse(cholesky(a))
     c = l * b * l.T
     return [v for v in eigsy((c + c.T) / 2, eigvals_only=True)]
@@ -154,7 +153,6 @@ def length_of(case, given):
 
 
 def other_sizes():
-    """Yields the rows of a deep channel and for a channel with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
@@ -170,7 +168,6 @@ def other_sizes():
 
 
 def branched():
-    """Returns the unsymmetric, branched section of four walls, in SI units."""
     mm = mpf(10) ** -3
     points = [(0, 0), (50, 0), (50, 80), (20, 80), (50, 100)]
     s = section([(y * mm, z * mm) for y, z in points], [(0, 1, 2 * mm), (1, 2, 3 * mm),

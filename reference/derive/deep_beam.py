@@ -18,7 +18,6 @@ FREQUENCIES, HALF_WAVES = 9, 12
 
 
 def bending(n, shear, rotary):
-    """Returns the squares of the angular frequencies for n half-waves."""
     k = n * pi / LENGTH
     if not shear:
         return [E * I * k ** 4 / (RHO * (A + (I * k ** 2 if rotary else 0)))]

@@ -38,8 +38,7 @@ def at_rest(f):
 
 
 def moving(f):
-    """Returns the sum of the forces per displacement of an arm, multiplied by w and sin(k L). The force of an arm per
-    displacement is Q/w across the arm, with t = 0, and EA k cot(k L) along it."""
+    """The force of an arm per displacement is Q/w across the arm, with t = 0, and EA k cot(k L) along it."""
     rows, k = from_pin(f), 2 * pi * f / sqrt(E / RHO)
     return E * A * k * cos(k * LENGTH) * minor(rows, 0, 1) + sin(k * LENGTH) * minor(rows, 3, 1)
 

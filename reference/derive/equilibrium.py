@@ -30,7 +30,6 @@ RELATIVE = 2e-10
 
 
 def singular_load(net, start, end):
-    """Returns the load level between start and end at which the linearised equilibrium is singular."""
     net.solve(np.linspace(start / 4, start, 4))
     size = np.linalg.slogdet(net.system(start)[0].toarray())[1]
     level = [start]
@@ -138,7 +137,6 @@ def twist_rate(q, slope, by, fields):
 
 
 def turn_of(q):
-    """Returns the matrix [3, 4] that converts a change dq of the quaternion q to theta = 2 vec(dq o q*)."""
     back = np.asarray(q) * np.array([1, -1, -1, -1])
     return np.array([2 * product(e, back)[1:] for e in np.eye(4)]).T
 
@@ -163,7 +161,7 @@ def held_tip(vibration, y, p, free_warping):
 
 
 def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
-    """Returns the frequencies [Hz] of the sheet fixed at its deflected tip. `form` is explained at sheets.deflected."""
+    """`form` is explained at sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
     net, _ = deflected(given, form)
     width, thickness, length = value["width"], value["thickness"], value["length"]

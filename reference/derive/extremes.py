@@ -40,7 +40,6 @@ def inextensible():
 
 
 def channel(**given):
-    """Yields the buckling load (Engesser) and the lowest frequency of the channel column."""
     s, value, at = column.channel_data(**given), defaults.decimals("c_column",
                                                                    given), sheets.parameters(given)
     load = column.buckling_load(s, value["length"], value["shear"], False)
@@ -113,7 +112,7 @@ def lateral():
 
 def twisted():
     """Yields the torque of the sheet with restrained warping and no axial force, (GJ phi/L)/(1 - tanh(kL/2)/(kL/2))
-    with k^2 = GJ/EIw. Then yields the moment and the shortening of a strip with the Wagner torque."""
+    with k^2 = GJ/EIw."""
     beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
@@ -132,8 +131,6 @@ def turns():
 
 
 def released():
-    """Yields the rows of an Euler-Bernoulli cantilever released from rest, for several axial stiffnesses and several
-    bodies at its tip."""
     tip = release.bernoulli("0.25", release.bernoulli_modes())
     for axial in ("1e9", "1e12", "1200", "120000", "12000000"):
         at = f"axial={decimal(mpf(axial))};time=0.25;{release.ANY}"

@@ -26,7 +26,6 @@ from scipy.optimize import brentq
 RELATIVE = 2e-10
 EA = 1e6  # axial stiffness, where the weak EI, GJ and the length are 1
 THETA, MY, FIRST = 0, 1, 2  # indices of theta, My and the first of the fields v, phi, chi, m_x, m_z, a, B
-                            # number of fields of a solution
 FIELDS = 7
 
 
@@ -59,7 +58,6 @@ def _start(theta, K):
 
 
 def _middle(theta, P, q, ratio, K, tolerance=1e-13):
-    """Returns theta and the fields [FIELDS, solutions] in the middle."""
     path = solve_ivp(_slopes, (0, 0.5),
                      _start(theta, K),
                      method="DOP853",

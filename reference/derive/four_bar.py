@@ -34,8 +34,6 @@ def along(angle):
 
 
 def tip(clamp, M0, F, intervals):
-    """Returns the position of the end of the crank and the moment at this end."""
-
     def slope(Y):
         e = np.array([np.cos(Y[:, 0]), np.sin(Y[:, 0])])
         g = 1 + (F[0] * e[0] + F[1] * e[1]) / (YOUNG * WIDTH * THIN)
@@ -64,7 +62,6 @@ def residual(u, part, intervals):
 
 
 def at_rest():
-    """Returns the directions of coupler and rocker in the undeformed state, with the joint above the line of the ground."""
     end = CRANK * along(BEGIN)
     d = [GROUND, 0] - end
     a = (COUPLER ** 2 - ROCKER ** 2 + d @ d) / (2 * np.hypot(*d))

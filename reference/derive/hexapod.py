@@ -21,7 +21,6 @@ DEFAULTS = defaults.values("hexapod")
 
 
 def crank_conditions(pivot, axis):
-    """Returns the conditions of a crank rotated about the axis by the common angle."""
     axis = np.asarray(axis)
 
     def conditions(level, x, R, force, moment, numbers):

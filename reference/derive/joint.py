@@ -43,14 +43,13 @@ def fold(net, beam, given, centre, axes, azimuth, mirrored, bodies, name):
         end = middle + value["length"] * along
         x, z = -to_global @ along, to_global @ line
         at_fold = {"shared": name, "free": "free", "fixed": "fixed"}[value["fold_warping"]]
-        # z along the fold line, y normal to the sheet
         y = np.cross(z, x)
         net.member(beam, body, crease, centre + to_global @ end, np.column_stack([x, y, z]),
                    ("fixed", at_fold))
 
 
 def add_joint(net, beam, given, centre, axes, base, effector, name):
-    """Adds one joint between two bodies. Returns the intermediate body."""
+    """Returns the intermediate body."""
     middle = net.body(centre)
     first = {**DEFAULTS, **given}["azimuth"]
     for k in range(3):
@@ -67,7 +66,6 @@ def turned(given):
     tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
-        """Returns the rotation vector at a level. From level 0 to 1, the joint is tilted at the first azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
 

@@ -60,7 +60,6 @@ class Frame:
         return one
 
     def turned(self, before):
-        """Sets the direction of the arc at this state to that of the secant from the state `before`."""
         self.way = self.place() - before.place()
         self.way, self.origin = self.way / np.linalg.norm(self.way), self.place()
         return self
@@ -90,7 +89,6 @@ def path(frame, least):
 
 
 def extremum(before, width):
-    """Returns (force, deflection) at the extremum of the force on an interval of the path."""
     nodes = (1 - np.cos(np.pi * (np.arange(11) + 0.5) / 11)) / 2 * width
     found = [before.advanced(s) for s in nodes]
     series = [

@@ -73,8 +73,8 @@ def _condition(load, K, gamma, terms):
 
 
 def lateral_load(load, K, guess, terms=TERMS):
-    """Returns the critical load. `terms` must be several times exp(1) sqrt K. The determinant, which grows with exp(sqrt
-    K), is divided by its size near the root."""
+    """`terms` must be several times exp(1) sqrt K. The determinant, which grows with exp(sqrt K), is divided by its
+    size near the root."""
     K, guess = mpf(K), mpf(guess)
     unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
     return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)
@@ -139,11 +139,10 @@ def _leg(x, M, EI, GJ):
 
 
 def frame_determinant(M, EI, GJ, length, angle):
-    """Returns the determinant for two legs that start at the corner with `angle` between them. Their ends remain in the
-    plane and rotate only about the normal of the plane.
+    """The ends of the legs remain in the plane and rotate only about the normal of the plane.
 
-    The axes of the first leg are (x, y, z); those of the second leg are rotated about z. The load of the second leg is
-    opposite to that of the first.
+    The axes of the first leg are (x, y, z); those of the second leg are rotated about z. The load of the second leg
+    is opposite to that of the first.
     """
     first, second = _leg(length, M, EI, GJ), _leg(length, -M, EI, GJ)
     c, s = cos(angle), sin(angle)

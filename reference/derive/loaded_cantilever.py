@@ -29,7 +29,6 @@ def from_tip(at, angle):
     couple = size if load == "couples" else 0.0
 
     def slope(s, y):
-        """Returns the derivatives with respect to s, which runs from the tip to the root."""
         _, _, t, fx, fy, moment = y
         along = 1 + (fx * cos(t) + fy * sin(t)) / axial
         dx, dy = along * cos(t), along * sin(t)

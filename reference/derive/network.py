@@ -39,7 +39,6 @@ class LineLoad:
                         self.turns, self.factor, more)
 
     def at_place(self, s):
-        """Returns force and moment [3, many] at s."""
         more = (0.0, 0.0) if self.more is None else (v[:, None] * s for v in self.more)
         return [v[:, None] + m for v, m in zip((self.force, self.moment), more)]
 
@@ -77,13 +76,11 @@ class Loaded(Scaled):
         return np.concatenate([y] + [np.array(s)[None]] * self.varies + [np.zeros((6, y.shape[1]))])
 
 
-# Parts of a network: rigid bodies, and beams between them.
-
 
 class Body:
 
     def __init__(self, x, conditions, on=None):
-        """A rigid body. `on` is the body to which a joint belongs."""
+        """`on` is the body to which a joint belongs."""
         self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
             [1.0, 0, 0, 0]), np.zeros(6), conditions
@@ -120,8 +117,7 @@ class Member:
         return y
 
     def linearise(self):
-        """Computes Y = base + A y_start + B p for the changes in each interval. `base` includes the residual of the
-        current values."""
+        """Computes Y = base + A y_start + B p for the changes in each interval."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -170,7 +166,7 @@ class Network:
         ]  # conditions that determine the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
-        """Adds a body. `position` is in [m]. `conditions` is a function that receives dimensionless values."""
+        """`position` is in [m]. `conditions` is a function that receives dimensionless values."""
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
@@ -181,8 +177,8 @@ class Network:
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """Adds a beam. `start` is the position [m] of its start, which is fixed to the first body. The columns of `axes`
-        are x, y, z of the beam. `loads` are LineLoads along the beam."""
+        """`start` is the position [m] of its start, which is fixed to the first body. The columns of `axes` are x, y,
+        z of the beam. `loads` are LineLoads along the beam."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
         if loads:

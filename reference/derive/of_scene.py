@@ -35,8 +35,6 @@ RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
 
 class Question:
-    """A quantity of the scene, with its kind, component and form of output."""
-
     def __init__(self, name, entry):
         only(entry, name, (*KINDS, "unit", "tolerance", "order", "near_zero", "factor", "offset",
                            "x", "prediction"))
@@ -215,7 +213,6 @@ def near(a, b, scale):
 
 
 def moments_of(scene, question):
-    """Returns the convention of the moments, or '' if it is the default (spatial) or does not apply."""
     if question.kind not in ("stiffness", "compliance"):
         return ""
     return scene["analyses"][question.of["analysis"]]["compliance"].get("moments",
@@ -232,7 +229,6 @@ KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # quantities with close
 
 
 def rows():
-    """Yields the rows of the examples. The built program writes the scenes."""
     if not os.access(PROGRAM, os.X_OK):
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:

@@ -125,8 +125,6 @@ def flight(times=FLIGHT_TIMES):
 
 
 def behind_step(elements, degree):
-    """Returns (energy, angular momentum about the origin) after 2.5 s of a constant load."""
-
     def step(_, force):
         force[0, -1] += 8
         force[2, -1] -= 80

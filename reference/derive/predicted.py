@@ -39,8 +39,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """Yields predictions for shear_elastica. GA = 10 is omitted for the beams of J, whose path ends before the full
-    load, and for sheet_second_consistent, whose value right_angle() yields."""
+    """GA = 10 is omitted for the beams of J, whose path ends before the full load, and for sheet_second_consistent,
+    whose value right_angle() yields."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -94,8 +94,8 @@ def bent_sheets():
 
 
 def vibrating_sheets():
-    """Yields predicted frequencies. The elements of J have consistent mass by default, which changes the limit (option
-    `interpolated` of equilibrium.py). The sheet elements have lumped mass."""
+    """The elements of J have consistent mass by default, which changes the limit (option `interpolated` of
+    equilibrium.py). The sheet elements have lumped mass."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})
@@ -105,7 +105,7 @@ def vibrating_sheets():
 
 
 def twisted_sheets():
-    """Yields predictions for twisted sheets. The elements of J do not include the Wagner torque."""
+    """The elements of J do not include the Wagner torque."""
     for name in JONKER + SHEETS:
         for given in WITHOUT_TORQUE + (WITH_TORQUE if name in SHEETS else ()):
             for row in sheets.twisted(form=as_printed(name), **given):
@@ -125,7 +125,6 @@ JOINTS = (({}, SHEETS), ({"wagner": 0}, ("beamw", "beamw_first", "sheet_third"))
 
 
 def joints():
-    """Yields predictions for joints. Each joint takes about twenty seconds."""
     for given, names in JOINTS:
         at = sheets.parameters(given)
         for name in names:
@@ -140,7 +139,6 @@ HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
 
 
 def hexapods():
-    """Yields predictions for hexapods. Each hexapod takes about ninety seconds."""
     for given, names in HEXAPODS:
         at = sheets.parameters(given)
         for name in names:
@@ -151,7 +149,7 @@ def hexapods():
 
 
 def channel_rows(name, given, deflections, points, relative):
-    """Yields the rows of a channel. Without shear, beamw_vlasov and beamw have the same limit."""
+    """Without shear, beamw_vlasov and beamw have the same limit."""
     rigid = {**defaults.values("c_cantilever"), **given}["shear"] == 0
     names = (name, "beamw_vlasov") if name == "beamw" and rigid else (name,)
     for w, values in zip(deflections, points):
@@ -162,7 +160,6 @@ def channel_rows(name, given, deflections, points, relative):
 
 
 def channels():
-    """Yields rows of channels without the Wagner moments, which none of the formulations supports."""
     for name in JONKER:
         for given, w in channel_cantilever.POINTS:
             if {**defaults.values("c_cantilever"), **given}["wagner_moments"] == 0:
@@ -231,8 +228,7 @@ def unsymmetric_columns():
 
 
 def angle_columns():
-    """Yields rows of angle columns. In beamw_first, twist causes no shortening, but the moment of the load on a leg is
-    coupled correctly."""
+    """In beamw_first, twist causes no shortening, but the moment of the load on a leg is coupled correctly."""
     for load in ("centroid", "leg"):
         force, y, z, _ = angle_column.stress_of(load)
         for given in ({}, {"warping": 0}):

@@ -49,7 +49,6 @@ class Jet:
         return [Jet(v, np.eye(VARIABLES)[i][:, None] + zero[0], zero) for i, v in enumerate(values)]
 
     def _of(self, value, first, second):
-        """Returns the Jet of f(self) from the values of f, f' and f''."""
         g = self.gradient
         return Jet(value, first * g, first * self.hessian + second * g[:, None] * g[None])
 
@@ -101,7 +100,7 @@ def chord(gamma):
 
 
 def jonker_first(gamma, kappa, a, centre, polar):
-    """Returns the measures of J Eq. 7 alone (beamw_first). If a is None, there is no warping."""
+    """If a is None, there is no warping."""
     stretch, n = chord(gamma)
     ys, zs = centre
     k = [kappa[0], n[0] * kappa[1] - n[1] * kappa[0], n[0] * kappa[2] - n[2] * kappa[0]]
@@ -110,7 +109,6 @@ def jonker_first(gamma, kappa, a, centre, polar):
 
 
 def jonker(gamma, kappa, a, centre, polar):
-    """Returns the measures of J Eqs. 7 and 66 (beamw, beamw_vlasov). polar = Ip/A, or 0 without the trapeze term."""
     eps, _, _, w, kx, ky, kz = jonker_first(gamma, kappa, a, centre, polar)
     _, n = chord(gamma)
     ys, zs = centre
@@ -123,7 +121,6 @@ def jonker(gamma, kappa, a, centre, polar):
 
 
 def _angles(gamma, kappa):
-    """Returns lambda and the angles y, z, p, y' of the local coordinates of N."""
     stretch, n = chord(gamma)
     slope = -(n[1] / n[0])  # tan z
     rate = kappa[1] * (slope * slope + 1.0).sqrt()
@@ -131,7 +128,6 @@ def _angles(gamma, kappa):
 
 
 def nijenhuis(gamma, kappa, a, centre, polar):
-    """Returns the measures of N Eq. 37 (sheet_second, sheet_third)."""
     stretch, y, z, p, dy = _angles(gamma, kappa)
     eps = stretch + -1.0 + (y * y + z * z) * 0.1 + p * p * (polar / 2)
     warping = None if a is None else p - a
@@ -139,7 +135,6 @@ def nijenhuis(gamma, kappa, a, centre, polar):
 
 
 def nijenhuis_sheared(gamma, kappa, a, centre, polar):
-    """Returns the measures of N Eq. 7 integrated over N Eqs. 14-19 with Phi (sheet_second_consistent)."""
     stretch, y, z, p, dy = _angles(gamma, kappa)
     eps = stretch + -1.0 - (y * y + z * z) * 0.5 + p * p * (polar / 2)
     return [eps, -z, y, None if a is None else p - a, p + z * dy, dy, kappa[2]]
@@ -182,11 +177,9 @@ class Printed(Beam):
 class ScaledPrinted(Scaled):
     @property
     def kept(self):
-        """Returns the indices of the measures that are used."""
         return [i for i in range(MEASURES) if self.warps or i != WARPING]
 
     def _measures(self, x, a):
-        """Returns the Jets of the kept measures with respect to (gamma, kappa, a)."""
         v = Jet.variables(np.concatenate([x[:6], a[None]]))
         E = self.measures(v[:3], v[3:6], v[6] if self.warps else None, self.centre, self.polar)
         E[6] = E[6] - self.curvature
@@ -224,7 +217,6 @@ class ScaledPrinted(Scaled):
         return np.concatenate([right, balance]).T, np.moveaxis(matrix, 2, 0)
 
     def _settled(self, given):
-        """Returns x [n, many], computed by Newton's method from the stress-free state."""
         x = np.zeros((6 + len(self.kept), given.shape[1]))
         scale = 1 + np.max(np.abs(given[:6]), axis=0)
         for _ in range(NEWTON_STEPS):
@@ -261,7 +253,6 @@ class ScaledPrinted(Scaled):
         return value + 1j * np.einsum("mij,jm->im", by[place], given.imag)
 
     def slope(self, y, p):
-        """Returns dy/ds as in beam.py."""
         R, F = rotation(y[3:7]), p[:3]
         m = p[3:] - np.cross(y[:3], F, axis=0)
         N, M = np.einsum("ijk,ik->jk", R, F), np.einsum("ijk,ik->jk", R, m)

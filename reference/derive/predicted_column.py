@@ -31,7 +31,6 @@ def _product(m, factor, a, b):
 
 
 def compression(s, k, shear, eq66):
-    """Returns the prestress matrix of a unit compression."""
     v, w, gy, gz, twist, gw = _functionals(s, k, shear)
     m, polar, eccentricity = matrix(len(v), len(v)), s.Ip / s.A, s.ys ** 2 + s.zs ** 2
     for factor, form in [(1, v), (1, w)]:

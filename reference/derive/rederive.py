@@ -160,7 +160,6 @@ def differences(name, stored, seen, cases, everything):
 
 
 def read_stored():
-    """Returns {key: row} of all stored rows that a program derives or confirms."""
     stored = {}
     for path in sorted(
             p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):

@@ -24,7 +24,7 @@ ANY = "integrator=*;step=*;tolerance=*"
 STATIC = 1e-9  # relative uncertainty of linear theory; the deflection is 1e-5 of the length
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
-JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a parameter point that `verify` runs
+JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"
 MODES, FREQUENCIES = 400, 3
 ROUNDED = 5e-9
 
@@ -100,7 +100,6 @@ def _answer(square):
 
 
 def flexibility():
-    """Returns the static compliance w/F of the beam [m/N]."""
     return 1 / (3 * EI) + 1 / GA
 
 

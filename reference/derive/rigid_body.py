@@ -25,7 +25,6 @@ SQUARE = sum((j * w)**2 for j, w in zip(J, START))
 
 
 def _constants():
-    """Returns (a1, a2, a3), p, m of the rates."""
     a1 = sqrt((SQUARE - TWICE_ENERGY * J[2]) / (J[0] * (J[0] - J[2])))
     a2 = sqrt((SQUARE - TWICE_ENERGY * J[2]) / (J[1] * (J[1] - J[2])))
     a3 = sqrt((SQUARE - TWICE_ENERGY * J[0]) / (J[2] * (J[2] - J[0])))
@@ -36,7 +35,6 @@ def _constants():
 
 
 def rates(t):
-    """Returns the body rates [rad/s] at t [s]."""
     (a1, a2, a3), p, m = _constants()
     # w2 increases while w1 and w3 are positive, because J2 w2' = (J3 - J1) w3 w1 > 0, and so does sn u
     u = p * t + ellipf(atan2(START[1] / a2, START[0] / a1), m)
@@ -66,7 +64,6 @@ def _precession(t):
 
 
 def orientation(t):
-    """Returns R [3 x 3], which maps body axes to space axes, at t [s]."""
     return matrix(_against_momentum(mpf(0))).T * _against_momentum(mpf(t))
 
 

@@ -98,7 +98,6 @@ def root_force(omega, s, R=0):
 
 
 def bending(count):
-    """Returns the natural frequencies of the cantilever at rest: cos(z) cosh(z) = -1 and omega = z^2."""
     return [
         findroot(lambda z: cos(z) + 1 / cosh(z),
                  (j + mpf(1) / 2) * pi + (mpf("0.3") if j == 0 else 0)) ** 2 for j in range(count)
@@ -119,7 +118,6 @@ def whirl(omega, ratio, count):
 
 
 def across(**given):
-    """Yields the rows of flap, lag and stretch for an axis normal to the beam."""
     value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing(
                      "rotating_cantilever", **given)
     omega, slenderness, R = value["omega_star"], value["slenderness"], value["hub_radius"]

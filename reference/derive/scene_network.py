@@ -1,4 +1,3 @@
-"""The network (network.py) of a scene: its bodies, supports, motions, members and loads."""
 import math
 
 import numpy as np
@@ -94,7 +93,6 @@ class SceneNetwork:
         self.net.extra = [condition() for condition in self.conditions_of] + self.extra
 
     def _measure(self):
-        """Sets the units of length and force from the shortest member."""
         self.frames = {}
         for name, entry in self.scene["members"].items():
             only(entry, name, MEMBER)
@@ -132,7 +130,6 @@ class SceneNetwork:
                 self.motion[name] = lambda level, numbers, known=known: known(level)
 
     def _unknown(self, name, what):
-        """Adds an unknown that a translation of a node determines."""
         i = WORDS.index(what["component"])
         if i > 2:
             raise Refused(
@@ -299,7 +296,6 @@ class SceneNetwork:
                                                 rotation(quaternion(principal)), warp, loads)
 
     def _end(self, name, entry, end, place, frame):
-        """Returns the body at an end of a member: the body of its node, or a joint on this node."""
         words = entry.get("release", {}).get(end, [])
         if not words:
             return place.body
@@ -341,7 +337,6 @@ class Pieces:
         self.axes = None if any(curvature) else Frame(*ends, numbers(self.entry["y"], name, 3), curvature, name).described
 
     def node(self, place):
-        """Returns the name of the node at a position where the member is cut or ends."""
         if place in (0.0, 1.0):
             return self.entry["from" if place == 0.0 else "to"]
         return f"{self.name} at {place!r}"
@@ -369,8 +364,6 @@ class Pieces:
             yield self.piece(i), one
 
     def at_place(self, name, entry):
-        """Yields the name and the entry of a force or a moment within the member, transferred to a node, in fixed
-        axes."""
         place = number(entry["where"], name)
         end = {0.0: "from", 1.0: "to"}.get(place)
         if end in self.entry.get("release", {}):
@@ -385,7 +378,6 @@ class Pieces:
         yield name, {**out, "on": self.node(place)}
 
     def spread(self, name, entry):
-        """Yields the name and the entry of a load along the member for each piece on which it acts."""
         kind = next((k for k in SPREAD if k in entry), None)
         begin, end = (number(entry.get(key, usual), name) for key, usual in (("from", "0"), ("to", "1")))
         out = {key: value for key, value in entry.items() if key not in OF_PART}

@@ -20,8 +20,6 @@ STEPS, HALVINGS = 4, 8  # minimum number of steps to each station of a path
 
 
 class Path:
-    """States of a static analysis at its stations."""
-
     def __init__(self, scene, name, grid):
         entry = scene["analyses"][name]["static"]
         only(entry, name, ("stations", "steps"))
@@ -77,7 +75,6 @@ def restore(net, state):
 
 
 def settle(net, level):
-    """Iterates Newton's method until its steps no longer decrease because of round-off."""
     size = net.iterate(level)
     for _ in range(30):
         before, size = size, net.iterate(level)
@@ -204,7 +201,6 @@ def in_units(scene, load):
 
 
 def inertia_of(scene, name):
-    """Returns (rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the units of the network."""
     section, where = scene.section_of(scene.scene["members"][name])
     s, rho = constants_of(section, where), number(section.get("density", "0"), where) / scene.force
     rotary = float("rotary_inertia" in scene.physics)

@@ -25,7 +25,6 @@ def skew(D):
 
 
 def rotation_vector(R):
-    """Returns the rotation vector of a real rotation matrix with an angle below pi."""
     s = skew(R)
     sine, cosine = np.linalg.norm(s), (np.trace(R) - 1) / 2
     return s * (np.arctan2(sine, cosine) / sine if sine > 0 else 1.0)
@@ -72,7 +71,6 @@ class Support:
         ]
 
     def _sequence(self, level, numbers):
-        """Returns [(current axis, number)] of the free rotations, and the rotation R."""
         R, free, angles = np.eye(3), [], iter(self.angles)
         for axis, kind in self.sequence:
             if kind == FREE:

@@ -27,7 +27,6 @@ def read(text):
 
 
 def only(entry, where, known):
-    """Raises Refused if an entry has an unknown key."""
     for key in entry:
         if key not in known:
             raise Refused(f"{where}: '{key}' is not supported by the deriving program")

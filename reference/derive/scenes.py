@@ -16,7 +16,6 @@ def names():
 
 
 def line_of(row):
-    """Returns a derived row as a line in the syntax of scene files."""
     given = row["parameters"].replace("=", ": ").replace(";", ", ")
     text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
     of = f', formulation: {row["formulation"]}' if row["formulation"] else ""
@@ -25,7 +24,6 @@ def line_of(row):
 
 
 def stored():
-    """Yields the rows of all scenes whose source is a program in this folder."""
     for path in sorted(PATH.glob("*.yaml")):
         for line in path.read_text(encoding="utf-8").splitlines():
             found = ROW.match(line)

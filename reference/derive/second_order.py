@@ -55,7 +55,6 @@ UNIT = np.array([[Q(int(i == j)) for j in range(3)] for i in range(3)], dtype=ob
 
 
 def exponential(v):
-    """Returns exp(v~) of a series without a constant term."""
     first, second = skew(v.c[1]), skew(v.c[2])
     return Series(UNIT, first, second + first @ first / 2)
 
@@ -119,7 +118,7 @@ def simo_reissner(e, hg, g, tw, c, centre=(Q(0), Q(0)), trapeze=Q(0)):
                 mean[1] * (x - Q(1, 2)) - 6 * hg[1] * x * (1 - x), mean[2] * (x - Q(1, 2)) + 6 * hg[0] * x * (1 - x)]
         kx = (mean[0] + (A * (1 - 2 * x) + tw * (6 * x - 6 * x ** 2 - 1)) / L) / L
         rate = [kx, (mean[1] - 6 * hg[1] * (1 - 2 * x)) / L, (mean[2] + 6 * hg[0] * (1 - 2 * x)) / L]
-        shear = [g[0] + zs * kx, g[1] - ys * kx]  # at the centroid
+        shear = [g[0] + zs * kx, g[1] - ys * kx]
         slope = np.array([e[0] / L, turn[2] + shear[0], -turn[1] + shear[1]], dtype=object)
         phi, dphi = skew(turn), skew(rate)
         gamma = phi @ phi @ UNIT[0] / 2 - phi @ slope

@@ -12,8 +12,6 @@ class Section:
 
 
 def _integrate(f):
-    """Returns the integral by three-point Gauss quadrature on [0, 1], which is exact for the polynomials of degree five
-    that occur."""
     a = sqrt(mpf(3) / 5) / 2
     return (5 * f(mpf(1) / 2 - a) + 8 * f(mpf(1) / 2) + 5 * f(mpf(1) / 2 + a)) / 18
 

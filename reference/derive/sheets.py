@@ -78,8 +78,6 @@ def under_convention(C, moment, convention):
 
 
 def quantities(case, given, net, tip, entries):
-    """Yields the compliance for dead forces and for moments under the convention of the case, then displacements and
-    reactions."""
     convention = {**defaults.values(case), **given}["moment_convention"]
     turned = "RyRzRx" if case == "sheet_wagner" else ""
     note = f"{convention} {turned}".strip()

@@ -49,7 +49,6 @@ class Rod:
 
 
 def _triangle(slope, peak):
-    """Returns a function of time that rises linearly until the time `peak` [s] and falls at the same rate."""
     return lambda t: slope * max(peak - abs(t - peak), 0.0)
 
 
@@ -73,7 +72,6 @@ def cross(a, b):
 
 
 def turned(q, v):
-    """Rotates v [3, n] with the quaternions q [4, n] from section axes to space axes."""
     along = 2 * cross(q[1:], v)
     return v + q[0] * along + cross(q[1:], along)
 
@@ -143,7 +141,6 @@ class Mesh:
         return rate, strain
 
     def energy(self, U, S):
-        """Returns the sum of kinetic and elastic energy [J]."""
         moving = self.rod.mass * self.lumped @ (U[:3]**2).sum(0)
         turning = (U[3:] * _each(self.inertia, U[3:])).sum()
         return (moving + turning + self.weight @ (S * self.forces(S)).sum(0)) / 2

@@ -27,8 +27,6 @@ NAMES = (("stretch", "m"), ("deflection_y", "m"), ("deflection_z", "m"), ("twist
 
 
 def rectangle_torsion(a, b):
-    """Returns the torsion constant h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5], where h >= t are
-    the sides."""
     h, t = max(a, b), min(a, b)
     total = mp.zeta(5) * 31 / 32 + sum(
         (tanh(n * pi * h / (2 * t)) - 1) / mpf(n) ** 5 for n in range(1, 60, 2))
@@ -88,8 +86,6 @@ def displacement(form, ratio, shear, row):
 
 
 def chebyshev(n):
-    """Returns points on [0, 1] and the matrix of the derivative at these points (Trefethen, Spectral Methods in MATLAB,
-    chapter 6)."""
     x = [(1 - cos(pi * j / n)) / 2 for j in range(n + 1)]
     weight = [(-1) ** j * (mpf(2) if j in (0, n) else mpf(1)) for j in range(n + 1)]
     D = matrix(n + 1, n + 1)

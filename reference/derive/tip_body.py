@@ -51,13 +51,11 @@ def at_rest(m, c, g, count=COUNT):
 
 
 def equilibrium(omega, m, c, s=S):
-    """Returns (B, k) of the equilibrium x = B sin kX, in extended precision."""
     k = mpf(omega) / s
     return (1 + mpf(m) * k ** 2 * mpf(c)) / (k * cos(k) - mpf(m) * k ** 2 * sin(k)), k
 
 
 def _ends(times):
-    """Returns values and first derivatives at X = 1 of the polynomials of rotating._basis."""
     fields = []
     for n in range(rotating.SIZE):
         series = [np.array([0.0] * n + [1.0])]
@@ -104,7 +102,6 @@ def flap(omega, m, c, g, s=S, count=COUNT):
 
 
 def lag(omega, m, c, g, s=S, count=COUNT):
-    """Returns the lowest lag frequencies, computed as in rotating.lag."""
     _, (K, M), (Ku, Mu), C = matrices(omega, m, c, g, s)
     n = rotating.SIZE
     none = np.zeros((n, n))

@@ -84,7 +84,6 @@ def rows(everything=True):
 
 
 def places(point, w):
-    """Yields (parameters, names of the quantities, at) for which a point of the curve is a reference value."""
     common = ["load_height=edge"] + ["load_point=E"] * (point == "E")
     alone = np.min(np.abs(np.array(POINTS[point]) - w)) < 1e-9
     for more in WAGNER:

@@ -10,8 +10,6 @@ from scipy.sparse.linalg import splu
 
 from reference.derive.beam import cross_matrix, exponential, rotation
 
-# Structured meshes of bricks with 20 nodes, from boxes of a common lattice.
-
 # Positions of the nodes in half steps of the lattice: corners, then middles of the edges of the lower face, of the
 # upper face, and between the faces.
 BRICK = (
@@ -69,7 +67,6 @@ class Grid:
         self.nodes = np.array(nodes)
 
     def at(self, axis, value):
-        """Returns the indices of the nodes in the plane at this value of a coordinate."""
         return np.flatnonzero(np.abs(self.nodes[:, axis] - value) < 1e-9)
 
 
@@ -84,7 +81,6 @@ def turned(vector):
 
 
 def spin(vector):
-    """Returns T [3, 3] for which the spin in fixed axes is T d(vector)."""
     phi, x = np.linalg.norm(vector), cross_matrix(np.asarray(vector, dtype=float))
     if phi < 1e-8:
         return np.eye(3) + x / 2
@@ -162,7 +158,6 @@ class Tip:
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """Returns the change of the resultant [6, 6] due to changes of forces and of arms."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]

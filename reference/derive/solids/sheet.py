@@ -108,7 +108,6 @@ def compared(run):
 
 
 def bent(deflection, mesh):
-    """Returns the values of sheet_cantilever at a tip deflection [m]."""
     with tempfile.TemporaryDirectory() as folder:
         motion, force, _, C = solve(
             Sheet(*mesh, folder), [-0.6 * deflection**2 / LENGTH, deflection, 0, 0, 0, 0], [0]
@@ -118,7 +117,7 @@ def bent(deflection, mesh):
 
 
 def twisted(angle, mesh):
-    """Returns the values of sheet_wagner at a twist [rad]. The initial guess is near the solution of the beam."""
+    """The initial guess is near the solution of the beam."""
     start = [
         -1.29e-3 - 4.7e-3 * angle**2,
         0.015,
