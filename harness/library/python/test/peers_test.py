@@ -338,11 +338,12 @@ class Documented(ModuleTest):
         made.quantities["u"] = {"displacement": {"analysis": "path", "node": "head", "component": "ux"}, "unit": "m"}
         made.quantities["M"] = {"reaction": {"analysis": "path", "node": "foot", "component": "rz"}, "unit": "N m"}
         made.omit = ["trapeze"]
-        u = math.pi / 2 * math.sqrt(0.6 / 4)
+        e = P / 29500 / 51.7  # axial strain; the formulas of the guide neglect it, which changes the displacement by 0.56 %
+        a = L * math.sqrt(P * (1 - e) / EI)
         for element in ("elasticBeamColumn", "dispBeamColumn", "forceBeamColumn"):
             got = self.values("opensees", element, made, 32)
-            self.assertAlmostEqual(got["u"] / (H * L**3 / EI * (math.tan(2 * u) - 2 * u) / (2 * u)**3), 1, delta=8e-3)
-            self.assertAlmostEqual(got["M"] / (H * L * math.tan(2 * u) / (2 * u)), 1, delta=8e-3)
+            self.assertAlmostEqual(got["u"] / ((1 - e)**2 * H * L**3 / EI * (math.tan(a) - a) / a**3), 1, delta=4e-4)
+            self.assertAlmostEqual(got["M"] / ((1 - e) * H * L * math.tan(a) / a), 1, delta=4e-4)
 
     def test_exudyn(self):
         """Exudyn's test models geometricallyExactBeam2Dtest.py and ANCFBeamTest.py (Cantilever2011, 8 elements): tip

@@ -13,7 +13,7 @@ from ._exudyn_path import add_controls, follow_path
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene,
                    Section, State, product, rotation, rotation_vector, times, transposed)
 
-NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
+NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "EXUDYN General License 1.0, terms of BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
 REQUIRES = ("exudyn==1.13.6", )
 _ANALYSES = frozenset({"static", "modal", "continuation"})
