@@ -296,7 +296,7 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
         return fault_set(f, STATUS_REFUSED,
                          "%s: the load is given in a member's axes but acts on a node; "
-                         "give fixed axes, or apply it to a member",
+                         "write axes: fixed, or apply the load to a member",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->kind != SCENE_GRAVITY && load->kind != SCENE_WEIGHT)
         return STATUS_OK;

@@ -380,18 +380,20 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
             "instant of a motion, but %s is a %s analysis; name one of these, or remove 'about'",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
-    return fault_set(f, STATUS_REFUSED,
-                     "%s: %s, but %s is a %s analysis; name a static analysis, or remove 'about'%s",
-                     scene_called(s, SCENE_ANALYSES, i).text,
-                     a->kind == SCENE_MODAL
-                         ? "a modal analysis is about a static or linear analysis"
-                         : "a buckling analysis is about a static analysis",
-                     scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
-                     about == SCENE_ROTATION && a->kind == SCENE_MODAL
-                         ? ", or request the frequencies of the rotation itself"
-                     : about == SCENE_CONTINUATION && a->kind == SCENE_BUCKLING
-                         ? ", or request the critical points of the continuation"
-                         : "");
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: %s, but %s is a %s analysis; name a static analysis, or remove 'about'%s",
+        scene_called(s, SCENE_ANALYSES, i).text,
+        a->kind == SCENE_MODAL
+            ? "a modal analysis is about a static or linear analysis or, with damped: yes, "
+              "an instant of a motion"
+            : "a buckling analysis is about a static analysis",
+        scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
+        about == SCENE_ROTATION && a->kind == SCENE_MODAL
+            ? ", or request the frequencies of the rotation itself"
+        : about == SCENE_CONTINUATION && a->kind == SCENE_BUCKLING
+            ? ", or request the critical points of the continuation"
+            : "");
 }
 
 static int is_requested(const scene *s, int analysis)

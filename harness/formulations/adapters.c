@@ -232,10 +232,10 @@ static status check_places(const element_type *given, const double options[], fa
     for (int k = 1; k < nodes; k++)
         good = good && place[k] > place[k - 1];
     if (!good)
-        return refuse(
-            given,
-            "'places' do not increase from 0 to 1; give 0 for the first node, and 1 for the last",
-            f);
+        return refuse(given,
+                      "'places' do not increase from 0 to 1; give increasing numbers, 0 for the "
+                      "first node and 1 for the last",
+                      f);
     lumped_shares(nodes, place, share);
     for (int k = 0; k < nodes; k++)
         if (!(share[k] > 0))

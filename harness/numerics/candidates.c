@@ -339,7 +339,7 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     }
     if (*missing < 0)
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "%d eigenvalues were found, but the inertia of the matrix gives fewer or "
+                         "%d eigenvalues were found, but the signs of the pivots give fewer or "
                          "cannot be computed; use fewer elements",
                          q);
     return STATUS_OK;
