@@ -2,6 +2,7 @@
 import importlib
 import json
 import unittest
+import unittest.mock
 
 from harness.library.python.test.module import ModuleTest, bw
 from harness.tools.kit.program import ROOT
@@ -31,6 +32,17 @@ class Features(ModuleTest):
         self.assertEqual(self.outcome({"elements": 1, "failure": "ended"}), "failed: ended")
         self.assertEqual(self.outcome({"elements": 1, "values": {}, "refused": {"q": "no"}}), "refused: no")
         self.assertEqual(self.outcome(missing="x is not installed"), "not installed")
+
+    def test_tried(self):
+        """A motion of a rod that is rigid in shear, with Exudyn."""
+        peers = importlib.import_module("beamwork.peers")
+        chosen = [("exudyn", "exact_3d", peers.load("exudyn").ELEMENTS["exact_3d"])]
+        with unittest.mock.patch.object(features, "CASES", [case for case in features.CASES if case[0] == "motion"]):
+            found = features.measure(chosen, peers.solve, 60, lambda text: None)
+        outcome = found["rows"][0]["outcomes"]["motion"]
+        if outcome == "not installed":
+            self.skipTest(outcome)
+        self.assertRegex(outcome, "^works")
 
     @unittest.skipUnless((ROOT / "reference" / "peers" / "features.json").is_file(), "no features are recorded")
     def test_page(self):

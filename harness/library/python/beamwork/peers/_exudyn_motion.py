@@ -83,7 +83,7 @@ def _functions(model: Any, analysis: Analysis) -> None:
 def _round_off(mesh: Mesh) -> float:
     """Returns a bound of the round-off of forces, which follow from differences of positions [N]."""
     size = max(math.hypot(*node.at) for node in mesh.nodes)
-    return max(4e-15 * max(e.member.section.EA, *(k for k in e.member.section.GA if k < math.inf)) *
+    return max(4e-15 * max([e.member.section.EA, *(k for k in e.member.section.GA if k < math.inf)]) *
                (size + e.member.length) / e.length for e in mesh.elements)
 
 

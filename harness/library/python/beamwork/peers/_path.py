@@ -175,7 +175,7 @@ class _Walk:
         return point
 
     def attempt(self, place: int, step: float, before: Sequence[float]) -> PathPoint | None:
-        """Makes a step. Returns to its begin and returns None if it is too long: if the path turns too far or jumps."""
+        """Makes a step. Returns to its start and returns None if it is too long: if the path turns too far or jumps."""
         here = self.points[-1]
         after = self.move(place, here.values[place] + step)
         if after is None:
