@@ -87,6 +87,12 @@ def coupled_beam(given):
     yield from program.values(given)
 
 
+def free_ring(given):
+    from reference.derive import free_ring as program
+    at = defaults.decimals("free_ring", given)
+    yield from program.values(at["torsion"], at["rotary_inertia"])
+
+
 def sheet_case(case, function):
 
     def solve(given):
@@ -167,6 +173,7 @@ SOLVERS = {
     "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever,
                            "tapered_cantilever"),
     "coupled_beam": (("asked", "coupling", "turn"), coupled_beam, "coupled_beam"),
+    "free_ring": (("torsion", "rotary_inertia"), free_ring, "free_ring"),
     "sheet_cantilever": (SHEET, sheet_case("sheet_cantilever", "cantilever"), "sheets"),
     "sheet_wagner": (SHEET + ("tip_phi_z", "tip_phi_x"), sheet_case("sheet_wagner",
                                                                     "twisted"), "sheets"),
