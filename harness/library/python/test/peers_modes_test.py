@@ -160,6 +160,24 @@ class Modes(PeerTest):
             self.assertNotIn("f_0", found.runs[0].get("values", {}), found.runs[0])
         self.each(check)
 
+    def test_ring(self):
+        """A free ring: six rigid-body motions, and double frequencies of bending that converge to the closed form."""
+        def check(peer, name, element):
+            data = {}
+            for rotary in (0, 1):
+                words = ("scene", "free_ring", "--set", f"rotary_inertia={rotary}", "--format", "json")
+                data[rotary] = json.loads(self.answered(*words).stdout)
+            want = {0: {"out_2": 2.605768024522, "in_2": 2.682938129455}, 1: {"out_2": 2.605247340907, "in_2": 2.682696821181}}
+            for rotary in (0, 1):
+                found = peers.solve(data[rotary], peer, name, [8, 16], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                if "refusal" not in found.runs[0]:
+                    coarse, fine = (run["values"] for run in found.runs)
+                    for key, value in want[rotary].items():
+                        self.assertAlmostEqual((4 * fine[key] - coarse[key]) / 3 / value, 1, delta=3e-4, msg=f"{rotary} {key}")
+        self.each(check)
+
 
 class Buckling(PeerTest):
     """Critical loads of linear buckling, which neglects the displacements before buckling."""
@@ -200,3 +218,19 @@ class Buckling(PeerTest):
             for want, parameters in ((4.0125993, {}), (4.0125993, {"ratio": 3}), (16.936132, {"load": "mid"})):
                 self.assertAlmostEqual(self.extrapolated(peer, name, "lateral_buckling", **parameters) / want, 1, delta=2e-5)
         self.buckling(check)
+
+
+class Compliance(PeerTest):
+
+    def test_sheet(self):
+        """The plane beam of Exudyn must have the compliances of ours in the deflected sheet, along it and across it."""
+        words = ("sheet_cantilever", "--set", "warping=0", "--set", "trapeze=0", "--set", "shear_factor=0.8333333333")
+        data = json.loads(self.answered("scene", *words, "--format", "json").stdout)
+        record = self.record("solve", *words, "-f", "collocation", "-n", 8)
+        ours = {q["quantity"]: q["value"] for q in record["quantities"] if "value" in q}
+        found = peers.solve(data, "exudyn", "exact_2d_3", [16], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        for name in ("C_xx", "C_ux_Fy", "C_ux_Mz", "C_uy_Fy", "C_thz_Mz"):
+            self.assertAlmostEqual(found.runs[0]["values"][name] / ours[name], 1, delta=1e-5, msg=name)
+        self.assertIn("does not compute this component", found.runs[0]["refused"]["C_zz"])

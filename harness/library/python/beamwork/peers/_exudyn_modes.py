@@ -1,15 +1,14 @@
-"""Modes of a model of Exudyn."""
+"""Modes and compliances of a model of Exudyn, from its matrices."""
 from __future__ import annotations
 
 from typing import Any
 
 from ._modes import families, require_plain_mass, rigid_motions, spectrum
-from .data import Analysis, Answer, Refused
+from .data import COMPONENTS, Analysis, Answer, Refused
 
 
-def _matrices(model: Any) -> tuple[Any, Any, Any]:
-    """Returns the stiffness and mass matrices of the initial state, for motions that the constraints allow, and these motions
-    as columns of all coordinates: as exudyn.solver.ComputeODE2Eigenvalues, which requires that every motion has mass."""
+def _whole(model: Any) -> tuple[Any, Any, Any]:
+    """Returns the stiffness matrix, the Jacobian of the constraints by rows, and the mass matrix of the initial state."""
     import numpy  # pylint: disable=import-outside-toplevel
     solver, mbs, settings = model.exu.MainSolverStatic(), model.mbs, model.settings_of
     before, settings.linearSolverType = settings.linearSolverType, model.exu.LinearSolverType.EXUdense
@@ -22,11 +21,40 @@ def _matrices(model: Any) -> tuple[Any, Any, Any]:
     whole, n = numpy.array(solver.GetSystemJacobian()), len(M)
     solver.FinalizeSolver(mbs, settings)
     settings.linearSolverType = before
-    free = numpy.eye(n)
-    if len(whole) > n:
-        _, sizes, motions = numpy.linalg.svd(whole[n:, :n])
+    return whole[:n, :n], whole[n:, :n], M
+
+
+def _matrices(model: Any) -> tuple[Any, Any, Any]:
+    """Returns the stiffness and mass matrices of the initial state, for motions that the constraints allow, and these motions
+    as columns of all coordinates: as exudyn.solver.ComputeODE2Eigenvalues, which requires that every motion has mass."""
+    import numpy  # pylint: disable=import-outside-toplevel
+    K, constraints, M = _whole(model)
+    free = numpy.eye(len(M))
+    if len(constraints) > 0:
+        _, sizes, motions = numpy.linalg.svd(constraints)
         free = motions[int((sizes > 1e-12 * sizes.max()).sum()):].T
-    return free.T @ whole[:n, :n] @ free, free.T @ M @ free, free
+    return free.T @ K @ free, free.T @ M @ free, free
+
+
+def compliance(model: Any, analysis: Analysis) -> list[list[float | None]]:
+    """Returns the compliance at a node of the plane beam from the tangent of the initial state. Constraints of released
+    components are omitted; the forces that replace them are constant."""
+    import numpy  # pylint: disable=import-outside-toplevel
+    name, released = analysis.raw["node"], analysis.raw.get("released", [])
+    K, constraints, _ = _whole(model)
+    omitted = {row for item, (component, ) in model.held.get(name, []) if COMPONENTS[component] in released
+               for row in model.mbs.systemData.GetObjectLTGAE(item)}
+    C = constraints[[row for row in range(len(constraints)) if row not in omitted]]
+    both = numpy.block([[K, C.T], [C, numpy.zeros((len(C), len(C)))]])
+    first, places = int(model.mbs.GetNodeODE2Index(model.node_at[model.mesh.node_of[name]])), (0, 1, 5)
+    loads = numpy.zeros((len(both), 3))
+    loads[first:first + 3] = numpy.eye(3)
+    moved = numpy.linalg.solve(both, loads)[first:first + 3]
+    out: list[list[float | None]] = [[None] * 6 for _ in range(6)]
+    for i, row in enumerate(places):
+        for k, column in enumerate(places):
+            out[row][column] = float(moved[i, k])
+    return out
 
 
 def _shape(model: Any, vector: Any) -> list[list[float]]:

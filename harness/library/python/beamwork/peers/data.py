@@ -165,7 +165,7 @@ class State:
     energy, by the names kinetic, strain and energy."""
     u: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     reaction: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
-    compliance: Matrix | None = None
+    compliance: Sequence[Sequence[float | None]] | None = None
     rate: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     energy: Mapping[str, float] = dataclasses.field(default_factory=dict)
 

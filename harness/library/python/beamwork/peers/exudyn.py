@@ -8,7 +8,7 @@ from typing import Any
 
 from . import _exudyn_motion
 from ._exudyn_joint import torque_of
-from ._exudyn_modes import modal
+from ._exudyn_modes import compliance, modal
 from ._exudyn_path import add_controls, follow_path
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene,
                    Section, State, product, rotation, rotation_vector, times, transposed)
@@ -21,8 +21,8 @@ _PHYSICS = frozenset({"shear", "large rotations", "geometric", "mass", "rotary i
 _FEW, _ALL = frozenset({"loads.follower", "modal.about"}), _ANALYSES | {"motion"}
 _KEYS = _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
-    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL, keys=_KEYS | {"plane"}),
-    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL, 2, _KEYS | {"plane"}),
+    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, keys=_KEYS | {"plane"}),
+    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, 2, _KEYS | {"plane"}),
     "cable_2d": Element("ANCF cable, Euler-Bernoulli, 2 nodes, Lobatto and Gauss points (useReducedOrderIntegration=2), xy plane only",
                         frozenset({"large rotations"}), frozenset({"static"}), keys=frozenset({"loads.follower", "plane"})),
     "exact_3d": Element("geometrically exact, 2 nodes, helical interpolation", _PHYSICS, _ALL, keys=_KEYS),
@@ -154,6 +154,9 @@ class Steps(Model):
         if analysis.kind == "modal":
             self._return_to(analysis)
             return modal(self, analysis)
+        if analysis.kind == "compliance":
+            self._return_to(analysis)
+            return Answer([State(compliance=compliance(self, analysis))], iterations=1)
         if analysis.kind == "motion":
             return _exudyn_motion.motion(self, analysis)
         if analysis.kind == "continuation":

@@ -153,7 +153,10 @@ def _state_values(q: Quantity, answer: Answer) -> list[float]:
     row = COMPONENTS.index(q.raw["row" if q.kind == "compliance" else "component"])
     column = COMPONENTS.index(q.raw["column"]) if q.kind == "compliance" else row
     entries = [s.compliance[row][column] for s in answer.states if s.compliance is not None]
-    return entries if q.kind == "compliance" else [1 / c for c in entries]
+    if None in entries:
+        raise Refused(f"{q.kind}: the driver does not compute this component")
+    known = [c for c in entries if c is not None]
+    return known if q.kind == "compliance" else [1 / c for c in known]
 
 
 def _of_family(family: str, answer: Answer) -> list[float]:
