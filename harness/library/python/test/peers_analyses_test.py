@@ -70,6 +70,12 @@ class Several(PeerTest):
                         np.testing.assert_allclose(R[3:], -moment - np.cross([LENGTH, 0, 0], force), rtol=1e-5)
 
 
+    def test_convergence_of_newton(self):
+        """A converged state of Kratos must be in balance: its criterion must not be met by small displacements."""
+        run = self.run_of("kratos", "corotational", cantilever({"path": {"static": {"stations": [0.25, 0.5, 0.75, 1]}}}))
+        self.assertAlmostEqual(run["values"]["path"], 0.60344, delta=5e-4)  # xara, exact_3: 0.60345
+
+
 class Supports(PeerTest):
 
     def test_two_rotations_held(self):

@@ -30,6 +30,7 @@ ELEMENTS = {
 }
 
 _TOLERANCE = 1e-10
+_ROUND_OFF = 1e-14  # absolute tolerance of rotations, and of displacements over the length
 _MOST_ITERATIONS = 100
 _LEAST_STEP = 1 / 64
 _STEPS: dict[tuple[str, str], int] = {}  # steps between stations that converged last
@@ -210,8 +211,10 @@ class Frame(Model):
                 part, scheme, builder, True, False, False, False
             )
         else:
-            t = _TOLERANCE
-            criterion = km.MixedGenericCriteria([(km.DISPLACEMENT, t, t), (km.ROTATION, t, t)])
+            length = self.scene.length()
+            criterion = km.MixedGenericCriteria(
+                [(km.DISPLACEMENT, _TOLERANCE, _ROUND_OFF * length), (km.ROTATION, _TOLERANCE, _ROUND_OFF)]
+            )
             criterion.SetEchoLevel(0)
             strategy = km.ResidualBasedNewtonRaphsonStrategy(
                 part, scheme, criterion, builder, most, True, False, True

@@ -33,7 +33,7 @@ ELEMENTS = {
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=frozenset({"plane"})),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
-_TURNS = 1e-3  # [rad] larger rotations in space are not sums of increments
+_TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
 
 
 def version() -> str:
