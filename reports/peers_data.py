@@ -117,12 +117,18 @@ def problems(found, level):
     return out
 
 
+def untimed(series):
+    """Returns True if the series has values but no times, as results that were recorded elsewhere."""
+    runs = [run for run in series["runs"] if "errors" in run]
+    return bool(runs) and not any(run.get("times") for run in runs)
+
+
 def factors(found, level):
     """Returns {program or formulation: [(time relative to the fastest, weight)]} with infinite times for problems that are
     not solved. A program counts with its fastest element."""
     all_ = problems(found, level)
     ours = {s["name"] for record in found for s in record["series"] if s["ours"]}
-    names = sorted({program_of(s) for record in found for s in record["series"]} | ours)
+    names = sorted({program_of(s) for record in found for s in record["series"] if not untimed(s)} | ours)
     out = {name: [] for name in names}
     for _, _, weight, ranked in all_:
         rows = [row for row in ranked["rows"] if math.isfinite(row["time"])]

@@ -52,6 +52,11 @@ class Data(unittest.TestCase):
         self.assertEqual(found["Q"], [(math.inf, 1.0)])
         self.assertEqual([why for s, why in peers_data.outcomes(record("c", refused))], ["no"])
 
+    def test_without_times(self):
+        """Results without times are not in profiles."""
+        old = series("Q, y", [{**run(1, 1e-5, 1.0), "times": {}}])
+        self.assertNotIn("Q", peers_data.factors([record("c", *two()[0]["series"], old)], 1e-2))
+
     def test_ahead(self):
         found = peers_data.ahead(two())
         self.assertEqual({(r["case"], level) for r, _, level, _ in found}, {("second", level) for level in peers_data.LEVELS})
