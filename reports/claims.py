@@ -21,7 +21,6 @@ COLUMN_PAIR = ("beamw", "beamw_consistent")
 
 
 def column_words(verdict):
-    """Returns a verdict, with its error if the limit differs from the reference value."""
     own = verdict.verdict in OWN_LIMITS
     return f"{verdict.verdict} ({100 * verdict.error:+.3g} %)" if own else verdict.verdict
 
@@ -178,8 +177,7 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """Returns a row that compares the times of two runs, or None if one is missing. `fast` and `slow` are
-    (formulation, elements per sheet)."""
+    """`fast` and `slow` are (formulation, elements per sheet)."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -244,9 +242,6 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# Comparison of the papers with computed values: figures and tables (reference/papers.csv) and equations
-# (reference/equations.csv).
-
 TABLE = ROOT / "reference" / "papers.csv"
 EQUATIONS = ROOT / "reference" / "equations.csv"
 STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
@@ -257,7 +252,6 @@ NAMES = {
 
 
 def read(path=TABLE):
-    """Returns the rows of a CSV table, in the order of the file."""
     with open(path, newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
 
@@ -285,7 +279,6 @@ def measured(look, truths, row):
 
 
 def counts(rows):
-    """Returns [(status, number of rows)] for the rows of one paper."""
     return [(status, sum(r["status"] == status for r in rows)) for status in STATUSES]
 
 

@@ -107,7 +107,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* The keys of the table have the order of scene_load_kind up to gravity, followed by
+/* The first keys of entry_load have the order of scene_load_kind up to gravity, followed by
  * temperature. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 

@@ -254,7 +254,6 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
 
 enum { MOST_TEXT = 4000 };
 
-/* An expression in which values replace names, and the positions of its characters in the file. */
 typedef struct written_out {
     char text[MOST_TEXT];
     int place[MOST_TEXT];

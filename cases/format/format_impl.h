@@ -28,10 +28,8 @@ typedef struct scope {
 /* Adds a name for a number. Returns the new scope, or `names` if out of memory. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
-/* Adds a parameter with these choices, whose value is `word`. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
-/* Adds a name for the constants of a section. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* Returns the entry of the name, of `length` characters, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
@@ -249,7 +247,6 @@ extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], 
 extern const entry_field keys_loop[];
 /* Returns 1 if the entries of this table may have loops. */
 int keys_loops(const entry_field *table);
-/* Returns 1 if the name is a key of a loop. */
 int keys_is_loop(const char *name);
 /* Returns the table of the values if the keys of a table are arbitrary names, otherwise NULL. */
 const entry_field *keys_any(const entry_field *table);

@@ -70,7 +70,6 @@ static int is_due(const entry_field *k, const void *entry)
     return (must && (k->kind != ENTRY_NAME || k->size > 0)) || !entry_is_usual(k, entry);
 }
 
-/* Writes a map whose key is `of`. */
 static void write_map(writer *w, const entry_field *table, const void *entry, const write_own own[],
                       const char *of)
 {

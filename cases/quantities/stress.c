@@ -47,8 +47,8 @@ static const char no_points[] =
     "the section is given by constants or matrices and has no stress points; describe it by "
     "dimensions or walls, or request 'internal'";
 
-/* Returns 1 if the section of the member has stress points. A section given by constants or
- * matrices has none. */
+/* Returns 0 if the section of the member is given by constants or matrices and has no stress
+ * points. */
 static int has_points(const scene *s, int member)
 {
     const int profile = member >= 0 && member < s->members ? s->member[member].section : SCENE_NONE;

@@ -1,4 +1,3 @@
-/* Initial shapes of the structure. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>

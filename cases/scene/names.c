@@ -1,4 +1,3 @@
-/* Names of entries, and descriptions of nodes, coordinates and ordinals. */
 #include "cases/scene/scene.h"
 
 #include <stdlib.h>

@@ -1,4 +1,3 @@
-/* Scenes: structure, loads and prescribed coordinates, analyses and quantities. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 
@@ -190,7 +189,6 @@ int scene_add_rotation(scene *s, int stations, const double path[], int steps_be
 int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how);
 /* Returns alpha_m = (2 rho - 1)/(rho + 1) and alpha_f = rho/(rho + 1) (Chung & Hulbert 1993). */
 scene_alpha scene_alpha_of_radius(double rho);
-/* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
 /* Returns the time [s] of the motion about which the analysis is made, or NAN if it is not about a
@@ -206,7 +204,6 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* Returns 1 if damping ratios of modes are given. */
 int scene_has_ratios(const scene_analysis *a);
 /* Returns 1 for a motion for which the scene requests consistent mass. */
 int scene_spreads(const scene_analysis *a);
@@ -219,7 +216,6 @@ scene_path *scene_editable_path(scene_analysis *a);
  * Returns SCENE_NONE for the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
-/* Returns 1 if the axes of the analysis rotate. */
 int scene_rotates(const scene_analysis *a);
 
 /* Expressions in text form, for numbers and functions of time. They contain + - * / ^, parentheses,
@@ -467,7 +463,6 @@ typedef struct scene_stress {
     int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_stress;
 
-/* Energies and momenta of the whole structure during a motion. */
 typedef enum scene_balance {
     SCENE_KINETIC,    /* [J] */
     SCENE_STRAIN,     /* energy stored in members and springs [J] */
@@ -935,7 +930,6 @@ enum {
                       FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
 };
 
-/* Shear theory that a scene requests for stability. */
 typedef enum scene_shear {
     SCENE_SHEAR_HARINGX,
     SCENE_SHEAR_ENGESSER,
@@ -1001,7 +995,6 @@ status scene_member_elongation(const scene *s, int member, double length, double
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
  * curvature. Writes the name of the load or member to `owner_name`, which may be NULL. */
 int scene_is_free(const scene *s, scene_words *owner_name);
-/* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
 /* Compute the position of an end of a member (0 at p, 1 at q), and the vector from its start to its
@@ -1123,9 +1116,7 @@ int scene_node_coordinate(const scene_node *n, int component);
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* Adds a rigid body to the node. The centre of mass may be offset from the node. */
 void scene_set_body(scene *s, int node, scene_body body);
-/* Returns 1 if the node has a mass or an inertia. */
 int scene_has_body(const scene_node *n);
-/* Returns 1 if any part of the scene has a mass. */
 int scene_has_mass(const scene *s);
 /* Finds rotations of a node that all its members release and that no other entry resists. They are
  * undefined and are therefore fixed. Returns 0 if there are no such rotations, SCENE_IDLE_AXIS for
@@ -1137,7 +1128,6 @@ int scene_idle_turn(const scene *s, int node, double axis[3]);
 const char *scene_convention(const scene *s, const scene_quantity *q);
 /* Returns the normal of the plane to which the scene is restricted, 0 to 2, or SCENE_NONE. */
 int scene_normal(const scene *s);
-/* Returns the name of the plane, such as "xy", or "" if there is no plane. */
 const char *scene_plane_name(const scene *s);
 /* Omits physics (bits of SCENE_OMITTABLE). By default, a scene has all physics that its sections,
  * loads and analyses require. */
@@ -1306,13 +1296,11 @@ const entry_field *entry_of_load(scene_load_kind);
 /* Return the keys of a map, and the summary of a key. */
 const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
-/* Returns the default of a numeric key. */
 double entry_usual(const entry_field *);
 /* entry_value returns the int of the word with this index. */
 int entry_value(const entry_field *, int index);
 int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
-/* Returns 1 if the value is the default. */
 int entry_is_usual(const entry_field *, const void *entry);
 /* Returns the range in words, such as "at least 0". */
 const char *entry_range(const entry_field *, char text[FAULT_TEXT]);
@@ -1375,7 +1363,6 @@ typedef struct scene_input {
     int (*stands)(const scene *, int analysis, char *owner_name, int size);
 } scene_input;
 
-/* The table, which ends with a NULL name. */
 extern const scene_input scene_inputs[];
 /* Names of the columns, such as "buckling about a path". */
 extern const char *const scene_column_name[SCENE_COLUMNS];
@@ -1400,7 +1387,6 @@ void meaning_member(FILE *to, const scene *s, int member);
 /* Writes the position, such as " at the end" or " at 0.5 of the length". `before` is the side at a
  * discontinuity. */
 void meaning_place(FILE *to, double where, int before);
-/* Returns 'x', 'y' or 'z', the axis of the component. */
 char meaning_axis(int component);
 /* Returns "force along" or "moment about". */
 const char *meaning_load(int component);

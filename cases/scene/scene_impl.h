@@ -30,15 +30,12 @@ int scene_is_joined(const scene *s, int node);
 /* Checks that members, springs, supports, motions or constraints carry a load at a node. */
 status scene_validate_carried(const scene *s, int load, fault *f);
 
-/* Checks the released ends of one member. */
 status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that a member, a support or a spring resists the rotations of a node. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* Returns REFUSED for invalid constraints. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* Returns REFUSED for invalid imperfections. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
 /* Checks load cases and combinations, and the entries that select them. */

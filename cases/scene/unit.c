@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-/* A number and the power of length in its unit. */
 typedef struct scaled {
     double *number;
     int power;

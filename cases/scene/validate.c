@@ -1,4 +1,3 @@
-/* Requirements that a scene must satisfy before a model is built from it. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>

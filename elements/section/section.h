@@ -114,9 +114,7 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* Computes the constants. Returns STATUS_REFUSED with the cause if dimensions are zero or negative,
- * if there are too many cells, disconnected walls or unused points, if D is not positive definite,
- * if G or E is not positive, or if a value is NaN. */
+/* Computes the constants. Returns STATUS_REFUSED with the cause if the description is invalid. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by two row-major matrices. For the strains of the Simo-Reissner beam along the

@@ -21,8 +21,7 @@ typedef struct section_tree {
     signed char round[SECTION_MAX_WALLS][SECTION_MAX_WALLS];
 } section_tree;
 
-/* Builds the tree. Returns REFUSED if the number of cells that the walls close is not that of the
- * section, if walls are disconnected, or if a point is unused. */
+/* Builds the tree. Returns REFUSED with the cause if the connection of the walls is invalid. */
 status tree_grow(const section_spec *s, section_tree *t, fault *f);
 
 /* Computes flow[walls], positive from `from` to `to`. The flow is constant around each cell and
@@ -94,8 +93,7 @@ double section_principal_angle(double Iyy, double Izz, double Iyz);
 status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out, fault *f);
 
 /* Adds the geometric constants and the shear compliance F to a zeroed section, without the
- * material. Returns REFUSED if the walls close an unexpected cell, a wall is disconnected, a point
- * is unused, a dimension is not positive, or all walls are on one line. */
+ * material. Returns REFUSED with the cause if the walls are invalid. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
 /* Returns int omega r^2 dA divided by the square root of int omega^2 dA int r^4 dA. This ratio

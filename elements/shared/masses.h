@@ -27,7 +27,7 @@ void moving_add(const moving_vector *v, const element_rotating_frame *frame, int
  * calls this function once, after all masses have been added. */
 void moving_complete(int n, inertia_output *out);
 /* Returns the matrix to which the terms of the second derivatives of y are added, or NULL if this
- * matrix is not requested. */
+ * matrix is not requested or the frame does not rotate. */
 static inline double *moving_stiffness(const element_rotating_frame *frame,
                                        const inertia_output *out)
 {

@@ -49,8 +49,7 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
  * buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
- * amplitude. REFUSED: a mode does not exist, is not unique, or has its largest displacement
- * perpendicular to the given direction. */
+ * amplitude. REFUSED: the message gives the reason. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */

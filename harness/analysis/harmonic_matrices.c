@@ -44,7 +44,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
     return STATUS_OK;
 }
 
-/* Computes K at the end of the static path. REFUSED: this state was not reached, or is unstable. */
+/* Computes K at the end of the static path. REFUSED: this state is not available or is unstable. */
 static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
 {
     analysis_context *c = v->c;

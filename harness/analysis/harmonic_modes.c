@@ -34,8 +34,7 @@ void harmonic_modes_free(harmonic_modes *m)
         free(block[i]);
 }
 
-/* Factors K, or K + shift M if K is singular. REFUSED: K is unsymmetric, or the state is unstable.
- * */
+/* Factors K, or K + shift M if K is singular. */
 static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
 {
     fault why = {""};

@@ -361,8 +361,7 @@ typedef struct defaults {
 
 /* Chooses a missing -f or -n, or both, for a cell of the case with its parameters. note: one line
  * for each choice, with the reason; "" if both were given. why: may be NULL; otherwise call
- * solution_choice_free, even after a failure. REFUSED: no formulation supports all features that
- * the case requires, or --error is not a valid number. */
+ * solution_choice_free, even after a failure. REFUSED: the message gives the reason. */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
 /* Like defaults_fill, but chooses only a missing formulation. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);

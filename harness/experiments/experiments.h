@@ -757,7 +757,7 @@ typedef struct batch_store {
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If two folders contain
  * the same batch, the first folder is used. A damaged batch counts as missing and is reported to
- * the stream (may be NULL) in one line. REFUSED: the folders do not belong to this work, or two
+ * the stream (may be NULL) in one line. REFUSED: the message gives the reason, for example that two
  * versions of a batch differ. FAULT: a folder cannot be read. Call batch_store_free after a failure
  * as well. */
 status batch_store_read(const shard_work *w, const char *const folder[], int folders,
@@ -779,7 +779,7 @@ status merge_read(const shard_work *w, const batch_store *s, fault *f);
 enum { MESHES_FINEST = 10000000 };
 
 /* Appends the numbers of a list such as "1,2,4" to mesh[most] and updates their number *count.
- * REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many items. */
+ * REFUSED: the list is invalid or too long. Items are integers from 1 to MESHES_FINEST. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };

@@ -135,8 +135,8 @@ int formulation_choice(const element_type *type, int index, int choice, formulat
 /* Returns the features that options with other values than the defaults affect (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
 
-/* Adds a formulation in the form of the option -f, or "all". REFUSED: a formulation is unknown or
- * given twice, an option is invalid, or there are more than `most`. */
+/* Adds a formulation in the form of the option -f, or "all". REFUSED: the message gives the reason,
+ * for example that there are more than `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
@@ -151,8 +151,8 @@ int formulations_is_loaded(const element_type *t);
 int formulations_is_new(const element_type *t);
 /* Marks a formulation as accepted (reference/accepted.csv). An unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. REFUSED: the name already exists or is reserved ("all"), the type is inconsistent,
- * or too many types are loaded. The caller keeps ownership of the type and of `from`, the value of
+/* Adds a type. REFUSED: the message gives the reason. The caller keeps ownership of the type and of
+ * `from`, the value of
  * --element (NULL: none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type; NULL: the type was not loaded. */

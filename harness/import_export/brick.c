@@ -10,8 +10,8 @@
 /* Returns the position of corner k, between 0 and 1, if n elements divide a length of 1. The
  * elements become smaller towards both ends. */
 static double face_graded(int k, int n);
-/* Computes the face of a section. constants: those computed from `spec`. REFUSED: the section is a
- * tube, is given by constants, or has walls oblique to y and z. */
+/* Computes the face of a section. constants: those computed from `spec`. REFUSED: the section
+ * cannot be divided into bricks. */
 static status face_of(const section_spec *spec, const section *constants, face *out, fault *f);
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };

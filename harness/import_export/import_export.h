@@ -32,7 +32,7 @@ typedef struct scene_data_request {
 
 /* Writes JSON: the scene file that write_scene writes, the required physics, the axes of the
  * members, the constants of the sections, and the meanings of the quantities. All values are in SI
- * units. REFUSED: a file cannot express the scene, or a member has no axis. */
+ * units. REFUSED: the message gives the reason. */
 status scene_data_write(const scene_data_request *, FILE *to, fault *f);
 
 /* A scene as an input deck of CalculiX 2.20. Members are solids, and ends are rigid faces. */

@@ -78,8 +78,8 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Returns 1 if the load is uniform on the element and has no arm. one: value of the load at a
- * point. */
+/* Returns 1 if the force in global axes is the same at all points of the element, and the load has
+ * no arm. one: value of the load at a point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&

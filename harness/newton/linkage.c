@@ -172,8 +172,7 @@ typedef struct linkage {
     int *part, *number;
     int count;
     /* [6 count x 6 count] sum of squares of the motions that joints, constraints, supports and
-     * springs prevent
-     * */
+     * springs prevent */
     double *S;
 } linkage;
 

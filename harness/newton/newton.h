@@ -1066,8 +1066,8 @@ status internal_largest(const equations *, const internal_state *, int member, i
                         void *context, double *out, fault *);
 
 /* Computes the stress [Pa] at a position on a member, from 0 (start node) to 1 (end node). REFUSED:
- * the section is given by constants, so it has no points. Other statuses are those of internal_at.
- * */
+ * the section has no stress points (elements/section/stress.h). Other statuses are those of
+ * internal_at. */
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
 /* Computes the largest stress over all sections of the member. */

@@ -17,8 +17,7 @@ static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int 
                            double x[]);
 /* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
  * element strains (stiffness_parts_material_product). SINGULAR: the accuracy is insufficient
- * because of rounding.
- * */
+ * because of rounding. */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
 /* Above this condition number, a solution has fewer than eight digits without refinement. */

@@ -369,9 +369,8 @@ void second_order_free(second_order *);
 /* Computes a reduced model q = T x. The caller frees T [(n + motions) x (columns + motions)] in any
  * case. T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
  * modes with the interface fixed. Without an interface, T consists of modes and the static shapes
- * of forces. REFUSED: the structure is free even if the interface is fixed, or too few modes have
- * mass. *modes becomes the number of modes in T, which is larger if the requested number would
- * separate modes with the same frequency. */
+ * of forces. REFUSED: the message gives the reason. *modes becomes the number of modes in T, which
+ * is larger if the requested number would separate modes with the same frequency. */
 status second_order_reduce(const second_order *, const char edge[], int *modes, second_order *out,
                            double **T, fault *);
 /* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest: [n]; NAN:

@@ -543,8 +543,8 @@ hid_t kept_group(record_file *r, const char *name);
 /* Like record_close, but keeps the other experiments in the file at `path`. After FAULT, the file
  * is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
-/* Checks an existing file before the computation. REFUSED: the file is damaged, contains no
- * results, or is locked by another program. FAULT: the file cannot be locked. */
+/* Checks an existing file before the computation. REFUSED: the message gives the reason. FAULT: the
+ * file cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */

@@ -679,8 +679,8 @@ typedef struct follow_curves {
 } follow_curves;
 
 /* Follows as many modes as the first modal analysis has frequency quantities. The modes are the
- * lowest modes at `from`. REFUSED: there is no modal analysis, or the number of coordinates depends
- * on the parameter. NOT_CONVERGED: a mode cannot be followed even with small steps. */
+ * lowest modes at `from`. REFUSED: the message gives the reason. NOT_CONVERGED: a mode cannot be
+ * followed even with small steps. */
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 

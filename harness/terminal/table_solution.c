@@ -12,8 +12,9 @@ static void loop_lines(FILE *to, const scene *s);
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
 /* smallest relative rounding error of a computed value */
-static const double least_rounding = 1e-11,
-                    noise = 1e-4; /* rounding relative to the scale; smaller values count as zero */
+static const double
+    least_rounding = 1e-11,
+    noise = 1e-4; /* relative to change_scale: rounding of a value; smaller values count as zero */
 
 static void predictions(FILE *to, const sweep_point *p, const truths *t)
 {

@@ -270,8 +270,7 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Checks the kind of mass. REFUSED: the integrator or the formulation does not support consistent
- * mass, or the previous motion has the other kind. */
+/* Checks the kind of mass. REFUSED: the message gives the reason. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];

@@ -9,7 +9,7 @@ from reports.figures.chart import Chart
 
 FLOOR = 1e-13
 NEARLY = 1e-10  # smaller errors are treated as zero
-CEILING = 1e3  # larger errors are not drawn
+CEILING = 1e3  # larger errors are drawn at this value
 MOST_CURVES = style.MOST
 OPEN = "open: below the reference value's own digits"
 

@@ -1,6 +1,6 @@
 /* A library for LD_PRELOAD. In the process that was started, but not in its children, allocation
- * number $SCARCE_AT after the start of main fails. If $SCARCE_ONLY is set, only calls of this
- * function are counted. $SCARCE_COUNT is the file to which their number is written. */
+ * number $SCARCE_AT after the start of main fails. If $SCARCE_ONLY names a function, only its
+ * calls are counted. The number of counted calls is written to the file $SCARCE_COUNT. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
