@@ -67,6 +67,13 @@ class Ranking(unittest.TestCase):
         self.assertEqual([(row["name"], row["ratio"]) for row in found["rows"]], [("b", 0.5), ("a", 1), ("c", 1.5)])
         self.assertIn("3 systems solved against 5 (a)", found["ahead"].replace("systems solved against", "systems solved against"))
 
+    def test_least_work(self):
+        """The least work may belong to another program than the least time."""
+        found = self.ranked(1e-2, series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(1, 1e-3, 2.0, unknowns=3)]))
+        self.assertEqual((found["rows"][0]["name"], found["least_work"]["name"], found["least_work"]["work"]), ("a", "b", 15))
+        text = tables.text(record(series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(1, 1e-3, 2.0, unknowns=3)])))
+        self.assertIn("least unknowns times systems: b, 3 x 5", text)
+
     def test_ours_first(self):
         found = self.ranked(1e-2, series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(1, 1e-3, 2.0)]))
         self.assertEqual(found["ahead"], "")

@@ -77,8 +77,9 @@ def _reason(first: Mapping[str, Any], ours: Mapping[str, Any] | None) -> str:
 
 
 def rank(record: Mapping[str, Any], quantity: Mapping[str, Any], level: float) -> dict[str, Any]:
-    """Returns {"rows": the programs that reach the error, the fastest first, "others": [name, reason], "ahead": why a peer is
-    ahead of all formulations, or ""}. ratio: time relative to the fastest formulation of beamwork."""
+    """Returns {"rows": the programs that reach the error, the fastest first, "others": [name, reason], "least_work": the row with
+    the least work or None, "ahead": why a peer is ahead of all formulations, or ""}. In a row, work: unknowns times systems
+    solved; ratio: time relative to the fastest formulation of beamwork."""
     rows, others = [], []
     for series in record["series"]:
         run = coarsest(series, quantity["name"], level)
@@ -92,9 +93,11 @@ def rank(record: Mapping[str, Any], quantity: Mapping[str, Any], level: float) -
                                (row["unknowns"] or 0) * (row["systems"] or 0)))
     ours = next((row for row in rows if row["ours"] and not row["unranked"] and not math.isnan(row["time"])), None)
     for row in rows:
+        row["work"] = row["unknowns"] * row["systems"] if row["unknowns"] and row["systems"] else None
         row["ratio"] = row["time"] / ours["time"] if ours else math.nan
     ahead = bool(rows) and not rows[0]["ours"] and not math.isnan(rows[0]["time"])
-    return {"rows": rows, "others": others, "ahead": _reason(rows[0], ours) if ahead else ""}
+    least = min((row for row in rows if row["work"] and not row["unranked"]), key=lambda row: int(row["work"]), default=None)
+    return {"rows": rows, "others": others, "least_work": least, "ahead": _reason(rows[0], ours) if ahead else ""}
 
 
 def rankings(record: Mapping[str, Any], levels: Sequence[float] = LEVELS) -> list[tuple[Mapping[str, Any], float, dict[str, Any]]]:

@@ -12,7 +12,7 @@ from typing import Any
 from ._ranking import rankings
 
 _OURS = 3  # formulations of beamwork in the text, for each error
-_COLUMNS = ("case", "parameters", "quantity", "level", "place", "program", "ours", "elements", "unknowns", "systems", "error",
+_COLUMNS = ("case", "parameters", "quantity", "level", "place", "program", "ours", "elements", "unknowns", "systems", "work", "error",
             "ratio", "seconds", "reason")
 
 
@@ -51,6 +51,9 @@ def text(record: Mapping[str, Any]) -> str:
             lines += ["", f"{shown} [{quantity['unit']}]" + (f", {quantity['kind']} {quantity['truth']:.11g}" if quantity["truth"] is not None else "")]
             lines += [f"  {'program':<36}{'n':>4}{'unknowns':>9}{'systems':>9}{'error':>11}{' time/ms' if unit else '':>{9 if unit else 0}}{'ratio':>8}"]
         lines += [f" to {100 * level:g} %:" + (f" a peer is ahead: {ranked['ahead']}" if ranked["ahead"] else "")]
+        least = ranked["least_work"]
+        if least and least["work"] < (ranked["rows"][0]["work"] or math.inf):
+            lines += [f"  least unknowns times systems: {least['name']}, {least['unknowns']} x {least['systems']}"]
         more = [row for row in ranked["rows"] if row["ours"]][_OURS:]
         lines += [_row(row, unit) for row in ranked["rows"] if row not in more]
         lines += [f"  and {len(more)} of beamwork: {', '.join(row['name'] for row in more)}"] if more else []
@@ -67,7 +70,7 @@ def rows(record: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         for i, row in enumerate(ranked["rows"]):
             time = row["time"] if math.isfinite(row["time"]) else None
             yield {**head, "place": i + 1, "program": row["name"], "ours": row["ours"], "elements": row["elements"],
-                   "unknowns": row["unknowns"], "systems": row["systems"], "error": row["error"],
+                   "unknowns": row["unknowns"], "systems": row["systems"], "work": row["work"], "error": row["error"],
                    "ratio": float(f"{row['ratio']:.4g}") if math.isfinite(row["ratio"]) else None,
                    "seconds": float(f"{time * unit:.4g}") if unit and time is not None else None,
                    "reason": ranked["ahead"] if i == 0 else ""}
