@@ -132,6 +132,49 @@ class Continuation(ModuleTest):
                 self.assertIn(word, str(found.runs[0].get("refusal", found.runs[0].get("refused"))))
 
 
+class Loads(ModuleTest):
+    """Loads on a cantilever of length 1 with EI = 1: the first element of every driver that reads the key must give the closed
+    form of the tip deflection and the force of the support."""
+    CASES = {"uniform": ({"distributed": [0, 1e-2, 0]}, 1 / 8, 1),
+             "part": ({"distributed": [0, 1e-2, 0], "from_": 0.5}, 41 / 384, 0.5),
+             "triangle": ({"distributed": [0, 0, 0], "to_value": [0, 1e-2, 0]}, 11 / 120, 0.5),
+             "where": ({"force": [0, 1e-2, 0], "where": 0.5}, 5 / 48, 1),
+             "moments": ({"distributed_moment": [0, 0, 1e-2]}, 1 / 3, 0)}
+
+    def made(self, load, kind):
+        made = bw.Scene("loads")
+        made.sections["bar"] = {"constants": {"A": 1e3, "Iy": 3, "Iz": 1, "It": 2, "Ip": 4}, "young": 1, "shear_modulus": 1}
+        made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all"}, {"at": [1, 0, 0]}
+        made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0], "warping": "free"}
+        made.loads["load"] = {**load, "on": "bar"}
+        made.analyses["path"] = {kind: {"stations": [1]} if kind == "static" else {}}
+        made.quantities["uy"] = {"displacement": {"analysis": "path", "node": "tip", "component": "uy"}, "unit": "m"}
+        made.quantities["F"] = {"reaction": {"analysis": "path", "node": "root", "component": "uy"}, "unit": "N"}
+        made.omit = ["trapeze"]
+        place = self.folder / "scene.yaml"
+        made.write(place)
+        return json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
+
+    def test_closed_forms(self):
+        for name, (load, deflection, force) in self.CASES.items():
+            key = "loads." + next(k for k in [*reversed(load)]).rstrip("_")
+            scenes = {kind: self.made(load, kind) for kind in ("static", "linear")}
+            for peer in peers.names():
+                for word, element in list(peers.load(peer).ELEMENTS.items())[:1]:
+                    if key not in element.keys:
+                        continue
+                    for kind in sorted({"static", "linear"} & element.analyses):
+                        if kind == "static" and "large rotations" not in element.offers:
+                            continue
+                        with self.subTest(load=name, peer=peer, element=word, analysis=kind):
+                            found = peers.solve(scenes[kind], peer, word, [8], rounds=1)
+                            if found.missing:
+                                self.skipTest(found.missing)
+                            self.assertIn("values", found.runs[0], found.runs[0])
+                            self.assertAlmostEqual(found.runs[0]["values"]["uy"] / (1e-2 * deflection), 1, delta=1.2e-2)
+                            self.assertAlmostEqual(found.runs[0]["values"]["F"] / -1e-2, force, delta=2e-5)
+
+
 class OnPath(ModuleTest):
     """A program on PATH: its absence, its version and its failure must be reported. A script stands for the program."""
 

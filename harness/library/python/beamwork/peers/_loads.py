@@ -4,11 +4,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from .data import Load, Mesh, MeshElement, Refused, times
+from .data import Load, Mesh, MeshElement, Refused, Vector
 
 _GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
 KEYS = frozenset({"loads.distributed", "loads.distributed_moment", "loads.from", "loads.to", "loads.to_value", "loads.lumped",
-                  "loads.axes", "loads.where"})  # keys that `nodal` reads
+                  "loads.where"})  # keys that `nodal` reads
 
 
 def _shapes(order: int, x: float) -> list[float]:
@@ -17,7 +17,8 @@ def _shapes(order: int, x: float) -> list[float]:
     return [math.prod((x - b) / (a - b) for b in at if b != a) for a in at]
 
 
-def _acts(load: Load, element: MeshElement) -> bool:
+def acts(load: Load, element: MeshElement) -> bool:
+    """Returns True if a load along members acts on an element."""
     begin, end = load.raw.get("from", 0.0), load.raw.get("to", 1.0)
     return element.member.name == load.member and begin - 1e-3 <= element.begin and element.end <= end + 1e-3
 
@@ -28,6 +29,11 @@ def _place(load: Load, mesh: Mesh) -> int:
     ends = [(abs(at - where), number) for e in mesh.elements if e.member.name == load.member
             for at, number in ((e.begin, e.nodes[0]), (e.end, e.nodes[-1]))]
     return min(ends)[1]
+
+
+def vectors(load: Load) -> list[Vector]:
+    """Returns the vectors between which a load varies."""
+    return [load.vector, *([load.raw["to_value"]] if "to_value" in load.raw else [])]
 
 
 def nodal(load: Load, mesh: Mesh) -> Mapping[int, Sequence[float]]:
@@ -44,26 +50,16 @@ def nodal(load: Load, mesh: Mesh) -> Mapping[int, Sequence[float]]:
         for i in range(3):
             target[first + i] += factor * vector[i]
 
-    own_axes = load.raw.get("axes") == "member"
     if not kind.startswith("distributed"):
-        number = mesh.node_of[load.node] if load.node is not None else _place(load, mesh)
-        if own_axes:
-            if load.node is not None:
-                raise Refused(f"axes: {load.name} acts at a node")
-            frame = next(f for e in mesh.elements for n, f in zip(e.nodes, e.frames) if n == number and e.member.name == load.member)
-            add(number, times(frame, load.vector), 1.0)
-        else:
-            add(number, load.vector, 1.0)
+        add(mesh.node_of[load.node] if load.node is not None else _place(load, mesh), load.vector, 1.0)
         return out
     last = load.raw.get("to_value", load.vector)
     begin, end = load.raw.get("from", 0.0), load.raw.get("to", 1.0)
-    for e in filter(lambda one: _acts(load, one), mesh.elements):
+    for e in filter(lambda one: acts(load, one), mesh.elements):
         for place, weight in _GAUSS:
             x = (1 + place) / 2
             s = (e.begin + (e.end - e.begin) * x - begin) / (end - begin)
             value = [a + (b - a) * s for a, b in zip(load.vector, last)]
-            if own_axes:
-                value = times(e.member.at((e.begin + (e.end - e.begin) * x) * e.member.length)[1], value)
             for number, shape in zip(e.nodes, _shapes(len(e.nodes) - 1, x)):
                 add(number, value, weight / 2 * e.length * shape)
     return out

@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ._loads import vectors
 from .data import COMPONENTS, Failed, Mesh, Refused, Scene, Section, cross, times, transposed
 
 _NOTHING = 1e-10  # relative size of rounding errors
@@ -81,8 +82,8 @@ def require_axial_loads(scene: Scene, mesh: Mesh, why: str) -> None:
     """Raises Refused if a load has a component across a member."""
     axes = [[float(row[0]) for row in e.R] for e in mesh.elements]
     for load in scene.loads:
-        size = math.hypot(*load.vector)
-        if load.kind == "moment" or any(abs(sum(a * b for a, b in zip(x, load.vector))) < (1 - 1e-9) * size for x in axes):
+        if load.kind.endswith("moment") or any(abs(sum(a * b for a, b in zip(x, v))) < (1 - 1e-9) * math.hypot(*v)
+                                               for x in axes for v in vectors(load)):
             raise Refused(f"buckling: {why}")
 
 

@@ -39,7 +39,7 @@ def buckling(model: Any) -> Answer:
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
         raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
-    if any(load.kind == "moment" for load in scene.loads):
+    if any(load.kind.endswith("moment") for load in scene.loads):
         raise Refused("buckling: not tested with moments as loads")
     model.build()
     largest = max(abs(x) / (scene.length() if i < 3 else 1) for u in _moved(model, 1e-9).values() for i, x in enumerate(u))

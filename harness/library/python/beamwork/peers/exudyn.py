@@ -9,6 +9,7 @@ from typing import Any
 from . import _exudyn_motion
 from ._exudyn_joint import torque_of
 from ._exudyn_modes import compliance, modal
+from ._loads import KEYS, nodal, vectors
 from ._exudyn_path import add_controls, follow_path
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene,
                    Section, State, product, rotation, rotation_vector, times, transposed)
@@ -19,7 +20,7 @@ REQUIRES = ("exudyn==1.13.6", )
 _ANALYSES = frozenset({"static", "modal", "continuation"})
 _PHYSICS = frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
 _FEW, _ALL = frozenset({"loads.follower", "modal.about"}), _ANALYSES | {"motion"}
-_KEYS = _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
+_KEYS = KEYS | _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
     "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, keys=_KEYS | {"plane"}),
     "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, 2, _KEYS | {"plane"}),
@@ -106,12 +107,23 @@ class Steps(Model):
             if load.kind == "gravity":
                 self._put_gravity(load, marker_of)
                 continue
-            if load.node is None or load.kind not in ("force", "moment"):
-                raise Refused(f"{load.kind}: the driver has forces and moments at nodes only")
+            if load.node is None:
+                self._put_along(load)
+                continue
             kind = "LoadForceVector" if load.kind == "force" else "LoadTorqueVector"
             vector = times(transposed(self.frame_of(load.node)), load.vector) if load.follower else list(load.vector)
             number = self.add(kind, markerNumber=marker_of(load.node), loadVector=vector, bodyFixed=load.follower)
             self.loads.append((load, number, vector))
+
+    def _put_along(self, load: Load) -> None:
+        """Adds a load on a member as forces and moments at nodes."""
+        if load.follower:
+            raise Refused(f"follower: {load.name} acts on a member")
+        for number, vector in nodal(load, self.mesh).items():
+            marker = self.add("MarkerNodeRigid", nodeNumber=self.node_at[number])
+            for kind, part in (("LoadForceVector", vector[:3]), ("LoadTorqueVector", vector[3:])):
+                if any(v != 0 for v in part):
+                    self.loads.append((load, self.add(kind, markerNumber=marker, loadVector=list(part)), list(part)))
 
     def _put_gravity(self, load: Load, marker_of: Any) -> None:
         if load.node is not None:
@@ -234,7 +246,7 @@ def check_plane(scene: Scene) -> None:
                 abs(member.axes[2][k]) for k in (1, 2)) > 1e-12:
             raise Refused(f"space: {member.name} is not in the xy plane")
     for load in scene.loads:
-        if any(x != 0 for x in (load.vector[:2] if load.kind == "moment" else load.vector[2:])):
+        if any(x != 0 for v in vectors(load) for x in (v[:2] if load.kind.endswith("moment") else v[2:])):
             raise Refused(f"space: {load.name} is not in the xy plane")
 
 

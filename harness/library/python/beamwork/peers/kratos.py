@@ -9,6 +9,7 @@ from typing import Any
 
 from ._kratos_buckling import buckling
 from ._modes import families, require_plain_mass, rigid_motions, spectrum
+from ._loads import KEYS, nodal
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, MeshElement, Model, Refused, Scene, State, Vector, cross, unit
 
 NAME, PROGRAM, LICENCE = "kratos", "Kratos", "BSD-4-Clause"
@@ -25,7 +26,7 @@ ELEMENTS = {
         order=1,
         offers=frozenset({"shear", "haringx", "large rotations", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "static", "compliance", "modal", "buckling"}),
-        keys=frozenset({"loads.distributed", "plane", "modal.about"}),
+        keys=KEYS | {"plane", "modal.about"},
     ),
 }
 
@@ -50,7 +51,7 @@ class Frame(Model):
         for load in scene.loads:
             if load.follower:
                 raise Refused("follower loads: this driver applies dead loads only")
-            if load.kind not in ("force", "moment", "distributed"):
+            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
                 raise Refused(f"loads of kind {load.kind}: this driver has no such load")
         self.kept: dict[str, Sequence[State]] = {}
         self.owners: list[Any] = []
@@ -173,30 +174,11 @@ class Frame(Model):
         y = [row[1] for row in e.R]
         return [float(a + (b + c) / 2) for a, b, c in zip(y, cross(u[3:], y), cross(v[3:], y))]
 
-    def _nodal(self, load: Load) -> dict[int, list[float]]:
-        """Returns the forces and moments of a load on nodes. Half of the load on an element acts on
-        each of its nodes."""
-        out: dict[int, list[float]] = {}
-
-        def add(number: int, factor: float, first: int) -> None:
-            target = out.setdefault(number, [0.0] * 6)
-            for i in range(3):
-                target[first + i] += factor * float(load.vector[i])
-
-        if load.kind in ("force", "moment"):
-            add(self.mesh.node_of[str(load.node)], 1.0, 0 if load.kind == "force" else 3)
-        else:
-            for e in self.mesh.elements:
-                if e.member.name == load.member:
-                    for number in e.nodes:
-                        add(number, e.length / 2, 0)
-        return out
-
     def loads(self, p: float | None) -> dict[int, list[float]]:
         total: dict[int, list[float]] = {}
         for load in self.scene.loads:
             factor = 1.0 if p is None else float(self.scene.load_factor(load, p))
-            for number, vector in self._nodal(load).items():
+            for number, vector in nodal(load, self.mesh).items():
                 target = total.setdefault(number, [0.0] * 6)
                 for i in range(6):
                     target[i] += factor * vector[i]

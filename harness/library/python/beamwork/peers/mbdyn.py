@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterable, Sequence
 
-from ._loads import KEYS, nodal
+from ._loads import KEYS, nodal, vectors
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Node, Refused, Scene, State, Vector,
                    rotation_vector, times)
 
@@ -95,7 +95,8 @@ class Beams(Model):
         """Returns True if the scene lies and moves in the plane normal to an axis."""
         flat = len({round(node.at[axis] / self.scene.length(), 9) for node in self.mesh.nodes}) == 1
         normal = all(max(abs(e.R[axis][1]), abs(e.R[axis][2])) > 1 - 1e-9 for e in self.mesh.elements)
-        inside = all(v == 0 or (load.kind.endswith("moment")) == (i == axis) for load in self.scene.loads for i, v in enumerate(load.vector))
+        inside = all(v == 0 or load.kind.endswith("moment") == (i == axis)
+                     for load in self.scene.loads for vector in vectors(load) for i, v in enumerate(vector))
         return flat and normal and inside
 
     def _law(self, index: int) -> str:
@@ -176,10 +177,12 @@ class Beams(Model):
 
     def _tolerance(self) -> float:
         """Returns the tolerance of the residual: relative to the loads or, without loads, to the bending stiffness; above the
-        rounding of the axial forces."""
+        rounding of forces."""
         sizes = [abs(v * f) / (self.force * (self.length if i > 2 else 1)) for load, at in self.loads for vector in at.values()
                  for i, v in enumerate(vector) for f in load.raw.get("factor", [1.0])]
-        rounding = 3e-15 * len(self.mesh.elements) * max(s.EA for s in self.scene.sections.values()) / self.force
+        rigid = _RIGID * max(max(s.EIy, s.EIz) for s in self.scene.sections.values()) / self.length**2
+        largest = max(min(k, rigid) if k in s.GA else k for s in self.scene.sections.values() for k in (s.EA, *s.GA))
+        rounding = 3e-15 * len(self.mesh.elements) * largest / self.force
         return float(max(1e-9 * max(sizes) if any(sizes) else 1e-9, rounding))
 
     def solve(self, analysis: Analysis) -> Answer:

@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from ._modes import nodal_inertia, require_axial_loads, require_plain_mass, rigid_motions
+from ._loads import KEYS, nodal
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "mystran", "MYSTRAN", "MIT"
@@ -20,7 +21,7 @@ ELEMENTS = {
         "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
         offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
-        keys=frozenset({"loads.distributed", "plane"}),
+        keys=KEYS | {"plane"},
     ),
 }
 
@@ -53,7 +54,7 @@ class Bars(Model):
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
         self.scene, self.mesh = scene, mesh
         for load in scene.loads:
-            if load.kind not in ("force", "moment", "distributed"):
+            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
                 raise Refused(f"loads of kind {load.kind}: this driver has no such load")
         if any(node.drive for node in scene.nodes.values()):
             raise Refused("drive: this driver has no driven nodes")
@@ -88,20 +89,13 @@ class Bars(Model):
         return "".join(out)
 
     def _loads(self) -> str:
-        """Returns the lines of the loads. Half of a load along an element acts on each of its
-        nodes."""
+        """Returns the lines of the loads. Loads along members act on nodes."""
         out = []
         for load in self.scene.loads:
-            word = "MOMENT" if load.kind == "moment" else "FORCE"
-            at = [(self.mesh.node_of[load.node], 1.0)] if load.node is not None else [
-                (n, e.length / 2)
-                for e in self.mesh.elements
-                if e.member.name == load.member
-                for n in e.nodes
-            ]
-            for number, scale in at:
-                vector = [float(v) for v in load.vector]
-                out.append(_card(word, 10, number + 1, 0, float(scale), *vector))
+            for number, vector in nodal(load, self.mesh).items():
+                for word, part in (("FORCE", vector[:3]), ("MOMENT", vector[3:])):
+                    if any(v != 0 for v in part):
+                        out.append(_card(word, 10, number + 1, 0, 1.0, *map(float, part)))
         return "".join(out)
 
     def _run(self, solution: int, control: str, more: str = "") -> list[str]:

@@ -7,12 +7,13 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
+from ._loads import KEYS, acts, nodal
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
 from ._opensees_path import PathOfModel
 from ._path import follow
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State, Vector,
-                   cross, transposed)
+                   cross, times, transposed)
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
@@ -20,7 +21,7 @@ REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, frozenset({"modal.about", "plane"})
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -30,7 +31,7 @@ ELEMENTS = {
     "forceBeamColumnCBDI": Element("force-based with second-order moments inside the element (CBDI), 5 Lobatto points, corotational;"
                                    " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
     "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
-    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=frozenset({"plane"})),
+    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=KEYS | {"plane"}),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
@@ -132,12 +133,15 @@ class Corotational(Model):
                         ops.sp(self.mesh.node_of[node.name], COMPONENTS.index(component) + 1, 1.0)
             tag += 1
         for load in self.scene.loads:
-            if load.node is None or load.kind not in ("force", "moment"):
-                raise Refused(f"{load.kind}: the driver has forces and moments at nodes only")
             self._series(tag, load.raw, "factor")
-            zero = (0.0, 0.0, 0.0)
-            vector = (*load.vector, *zero) if load.kind == "force" else (*zero, *load.vector)
-            ops.load(self.mesh.node_of[load.node], *vector)
+            if load.kind == "distributed" and self.linear and not {"to_value", "lumped"} & set(load.raw):
+                for i, element in enumerate(self.mesh.elements, 1):
+                    if acts(load, element):
+                        x, y, z = times(transposed(element.R), load.vector)
+                        ops.eleLoad("-ele", i, "-type", "-beamUniform", y, z, x)
+            else:
+                for number, vector in nodal(load, self.mesh).items():
+                    ops.load(number, *vector)
             tag += 1
         self.next_tag = tag
 

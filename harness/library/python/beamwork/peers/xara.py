@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+from ._loads import KEYS, nodal, vectors
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from ._opensees_path import PathOfFrame
 from ._path import follow
@@ -22,7 +23,7 @@ REQUIRES = (
 
 _STATICS = frozenset({"linear", "static", "compliance"})
 _OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
-_KEYS = frozenset({"loads.distributed", "plane"})
+_KEYS = KEYS | {"plane"}
 ELEMENTS = {
     "exact": Element(
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
@@ -123,7 +124,7 @@ class Frame(Model):
         for load in self.scene.loads:
             if load.follower:
                 raise Refused("follower loads: this driver applies dead loads only")
-            if load.kind not in ("force", "moment", "distributed"):
+            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
                 raise Refused(f"loads of kind {load.kind}: this driver has no such load")
 
     def _tolerance(self) -> float:
@@ -141,8 +142,9 @@ class Frame(Model):
                 len({n.at[i] for n in self.mesh.nodes}) == 1
                 and all(max(abs(e.R[i][1]), abs(e.R[i][2])) > 1 - 1e-9 for e in self.mesh.elements)
                 and all(
-                    load.vector[k] == 0 or (load.kind == "moment") == (k == i)
+                    vector[k] == 0 or load.kind.endswith("moment") == (k == i)
                     for load in self.scene.loads
+                    for vector in vectors(load)
                     for k in range(3)
                 )
                 and all(inside.issuperset(n.drive) for n in self.scene.nodes.values())
@@ -212,27 +214,6 @@ class Frame(Model):
             )
         return model
 
-    def _nodal(self, load: Load) -> dict[int, list[float]]:
-        """Returns the forces and moments of a load on nodes. Loads along members are lumped with
-        the shape functions of the displacements."""
-        out: dict[int, list[float]] = {}
-
-        def add(number: int, vector: Any, factor: float, first: int) -> None:
-            target = out.setdefault(number, [0.0] * 6)
-            for i in range(3):
-                target[first + i] += factor * float(vector[i])
-
-        if load.kind in ("force", "moment"):
-            number = self.mesh.node_of[str(load.node)]
-            add(number, load.vector, 1.0, 0 if load.kind == "force" else 3)
-            return out
-        weights = {1: (1 / 2, 1 / 2), 2: (1 / 6, 4 / 6, 1 / 6), 3: (1 / 8, 3 / 8, 3 / 8, 1 / 8)}
-        for e in self.mesh.elements:
-            if e.member.name == load.member:
-                for node, weight in zip(e.nodes, weights[self.order]):
-                    add(node, load.vector, weight * e.length, 0)
-        return out
-
     def _add_pattern(self, model: Any, tag: int, series: list[Any]) -> None:
         model.timeSeries(*series)
         model.pattern("Plain", tag, tag)
@@ -255,7 +236,7 @@ class Frame(Model):
             tag += 1
             values = [float(self.scene.load_factor(load, p)) for p in stations] or [1.0]
             self._add_pattern(model, tag, series(values))
-            for number, vector in self._nodal(load).items():
+            for number, vector in nodal(load, self.mesh).items():
                 model.load(number, *vector, pattern=tag)
         for node in self.scene.nodes.values():
             for component, motion in node.drive.items():
@@ -297,7 +278,7 @@ class Frame(Model):
         model = self._new()
         for tag, load in enumerate(self.scene.loads, start=1):
             self._add_pattern(model, tag, ["Linear", tag])
-            for number, vector in self._nodal(load).items():
+            for number, vector in nodal(load, self.mesh).items():
                 model.load(number, *vector, pattern=tag)
         self._prepare(model)
         return model
