@@ -287,7 +287,7 @@ class Solve(ProgramTest):
             steps = self.record(*what)["steps"]
             failed = sum(s["rejected"] for s in steps)
             self.assertEqual(failed > 0, rejects)
-            told = f" in {len(steps)} load step" + ("s" if len(steps) > 1 else "")
+            told = f" in {len(steps)} step" + ("s" if len(steps) > 1 else "")
             told += f" ({failed} longer rejected)," if rejects else ","
             self.assertIn(told, " ".join(self.answered(*what).stdout.split()))
 
