@@ -207,6 +207,7 @@ typedef struct strain_update_search {
     const equations *eq;
     const model *m;
     int element;
+    double path; /* time [s] of the free strains */
     double near; /* [N] distance below which stresses agree */
     double e[MOST], sigma[MOST], C[MOST * MOST];
 } strain_update_search;
@@ -235,7 +236,7 @@ static double gap_of(int n, const double goal[], const double sigma[], double ga
 static int evaluate(strain_update_search *w)
 {
     w->eq->run->counters.stress_evaluations++;
-    return model_type(w->m)->stress(model_kind_of(w->m, w->element)->data, w->e, NULL,
+    return model_type(w->m)->stress(free_strain_data(w->eq, w->element, w->path), w->e, NULL,
                                     &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
@@ -318,7 +319,7 @@ static const double *target_of(const strain_update *c, const model_state *s, int
     if (run_damping_of(c->eq->run->damping, m, element) == NULL)
         return s->sigma + first;
     c->eq->run->counters.stress_evaluations++;
-    if (model_type(m)->stress(model_kind_of(m, element)->data, c->before + first, NULL,
+    if (model_type(m)->stress(free_strain_data(c->eq, element, s->path), c->before + first, NULL,
                               &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
         return NULL;
     for (int k = 0; k < model_strains(m); k++)
@@ -329,11 +330,14 @@ static const double *target_of(const strain_update *c, const model_state *s, int
     return room;
 }
 
-static void find(const strain_update *c, int element, const double sigma[], double e[])
+static void find(const strain_update *c, double path, int element, const double sigma[], double e[])
 {
     const size_t n = (size_t)model_strains(c->m);
-    strain_update_search w = {
-        .eq = c->eq, .m = c->m, .element = element, .near = near_of(model_strains(c->m), sigma)};
+    strain_update_search w = {.eq = c->eq,
+                              .m = c->m,
+                              .element = element,
+                              .path = path,
+                              .near = near_of(model_strains(c->m), sigma)};
     memcpy(w.e, e, n * sizeof *e);
     if (reach_target(&w, sigma)) {
         memcpy(e, w.e, n * sizeof *e);
@@ -354,15 +358,16 @@ static void settled(const strain_update *c, const model_state *s, int count, con
     stress_output out[CHUNK_MOST];
     status outcome[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
-        data[k] = model_kind_of(m, index[k])->data;
+        data[k] = free_strain_data(c->eq, index[k], s->path);
         e[k] = &s->e[(size_t)index[k] * (size_t)model_strains(m)];
         out[k] = (stress_output){.sigma = sigma[k]};
     }
     c->eq->run->counters.stress_evaluations += count;
-    if (count > 1)
+    if (count > 1 && c->eq->run->free_strain == NULL)
         model_type(m)->stress_many(count, data, e, inner, out, outcome);
     else
-        outcome[0] = model_type(m)->stress(data[0], e[0], NULL, &out[0]);
+        for (int k = 0; k < count; k++)
+            outcome[k] = model_type(m)->stress(data[k], e[k], NULL, &out[k]);
     for (int k = 0; k < count; k++)
         is[k] = goal[k] == NULL ||
                 (outcome[k] == STATUS_OK && gap_of(model_strains(m), goal[k], sigma[k], gap) <=
@@ -382,7 +387,7 @@ static int follow_stresses(const strain_update *c, model_state *s, int first, in
         settled(c, s, count, index, goal, is);
         for (int k = 0; k < count; k++)
             if (!is[k]) {
-                find(c, index[k], goal[k], &s->e[(size_t)index[k] * n]);
+                find(c, s->path, index[k], goal[k], &s->e[(size_t)index[k] * n]);
                 all = 0;
             }
     }

@@ -37,6 +37,16 @@ quantities:
   energy: {{energy: {{analysis: shake, of: energy}}}}
 mass: lumped
 """
+# A bar that is heated suddenly, at rest. Its energy is that of the strain that the heat requires, E A L (a T)^2/2.
+HEATED = """beamwork: 1
+sections: {s: {rectangle: {width: 0.05, thickness: 0.02}, young: 2e11, shear_modulus: 8e10, density: 7800, expansion: 1e-5}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], mass: 2}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {heat: {temperature: 5, on: m}}
+analyses: {go: {motion: {stations: [0.05], integrator: conserving, step: 1e-3}}}
+quantities: {energy: {energy: {analysis: go, of: energy}}, drift: {energy: {analysis: go, of: drift}}}
+omit: [trapeze, wagner_moments, wagner_torque]
+"""
 
 
 class CombinedTest(SceneCase):
@@ -64,6 +74,12 @@ class CombinedTest(SceneCase):
         for name in runs:
             bound = 1e-9 if name == "conserving" else 1e-4
             self.assertLess(abs(got[name]["drift"]), bound * abs(got[name]["energy"]), name)
+
+    def test_heat_conserves_energy(self):
+        for formulation in ("beamw", "beamw_vlasov", "beamw_first", "collocation", "sheet_third"):
+            got = self.solve(HEATED, formulation)
+            self.assertAlmostEqual(got["energy"], 2e11*1e-3*(1e-5*5)**2/2, delta=1e-9, msg=formulation)
+            self.assertLess(abs(got["drift"]), 1e-9, formulation)
 
     def test_explicit(self):
         text = MOVED.replace(", pretension: 3e3", "") + MOTION.format(integrator="explicit", steps="step: 1e-5")
