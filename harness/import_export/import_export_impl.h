@@ -34,8 +34,8 @@ double face_area(const face *);
 
 enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 
-/* Nodes are on a lattice with two steps per element. Numbering starts at the first corner. Numbers
- * of positions without a node are not used. */
+/* Nodes are on a lattice with two steps per element. Their numbers increase along z first, then
+ * along y, then along x. Numbers of positions without a node are not used. */
 typedef struct brick {
     int elements[3]; /* number of elements along x, y and z of the member */
     int first_node, first_element;

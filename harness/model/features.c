@@ -68,8 +68,8 @@ static int is_used(const scene *s, int index)
     return 0;
 }
 
-/* Returns the second-order physics that a section given by constants requires; 0: the analyses do
- * not include stresses. */
+/* Returns the second-order physics that the constants of a section require; 0: the analyses do not
+ * include stresses. */
 static unsigned needs_of_stresses(const section *c, unsigned needs)
 {
     const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
