@@ -175,6 +175,22 @@ class Loads(ModuleTest):
                             self.assertAlmostEqual(found.runs[0]["values"]["F"] / -1e-2, force, delta=2e-5)
 
 
+class Released(ModuleTest):
+    """A driver that frees all driven components must reject a compliance with one of them held."""
+
+    def test_held_component(self):
+        text = self.answered("scene", "sheet_cantilever").stdout.replace("omit: [wagner_torque]", "omit: [wagner_torque, warping, trapeze]")
+        place = self.folder / "scene.yaml"
+        place.write_text(text.replace("released: [uy, rz]", "released: [rz]"), encoding="utf-8")
+        scene = json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
+        for peer, name in (("xara", "force"), ("kratos", "corotational")):
+            with self.subTest(peer=peer):
+                found = peers.solve(scene, peer, name, [8], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                self.assertIn("released", found.runs[0].get("refusal", str(found.runs[0].keys())))
+
+
 class OnPath(ModuleTest):
     """A program on PATH: its absence, its version and its failure must be reported. A script stands for the program."""
 

@@ -271,6 +271,13 @@ class Scene:
             return 0.0
         return interpolated(motion["path"], motion["value"], path)
 
+    def require_released(self, analysis: Analysis) -> None:
+        """Raises Refused unless the components that a compliance analysis releases are the driven ones of its node. For
+        drivers that free all of these, and no others."""
+        node, released = self.nodes[analysis.raw["node"]], set(analysis.raw.get("released", ()))
+        if released != set(node.drive):
+            raise Refused(f"released: the driver frees the driven components of {node.name}, and no others")
+
     def length(self) -> float:
         return max(m.length for m in self.members.values())
 

@@ -384,6 +384,7 @@ class Frame(Model):
         return State(u=state.u, reaction=reaction)
 
     def _compliance(self, analysis: Analysis) -> Answer:
+        self.scene.require_released(analysis)
         if analysis.about is not None:
             return Answer(states=self.kept[analysis.about])
         part = self.linear_part()

@@ -372,6 +372,7 @@ class Frame(Model):
         ]
 
     def _compliance(self, analysis: Analysis) -> Answer:
+        self.scene.require_released(analysis)
         if analysis.about is not None:
             return Answer(states=self.kept[analysis.about])
         model = self._new()
