@@ -130,6 +130,34 @@ class Supports(PeerTest):
                     self.assertAlmostEqual(got["turn"] / (4 / 2e5 * (math.pi / 2 - 1)), 1, delta=2e-3)
 
 
+    def test_driven_rotation(self):
+        """A clamp that turns by 1.2 rad must turn the beam by this angle, in any number of load steps."""
+        for peer, name in peers.chosen(["exudyn:exact_2d", "opensees:elasticBeamColumn", "xara:exact_3", "kratos"]):
+            with self.subTest(peer=peer, element=name):
+                made = cantilever({"path": {"static": {"stations": [1]}}})
+                made.loads["force"]["force"] = [0, 1, 0]
+                made.nodes["root"] = {"at": [0, 0, 0], "hold": ["ux", "uy", "uz", "rx", "ry"], "drive": {"rz": "turn"}}
+                made.motions["turn"] = {"unit": "rad", "path": [0, 1], "value": [0, 1.2]}
+                found = peers.solve(self.data(made), peer, name, [4], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                if peer == "kratos":
+                    self.assertIn("refusal", found.runs[0])
+                else:
+                    self.assertAlmostEqual(found.runs[0]["values"]["path"], 2 * math.sin(1.2), delta=1e-4)
+
+    def test_factor_of_loads(self):
+        """Linear analyses must use the factor of a load at the path parameter 1."""
+        for peer, name in peers.chosen(["opensees:elasticBeamColumn", "xara:force", "kratos", "mystran", "pynite"]):
+            with self.subTest(peer=peer, element=name):
+                made = cantilever({"linear": {"linear": {}}})
+                made.loads["force"].update(path=[0, 1], factor=[0, 3])
+                found = peers.solve(self.data(made), peer, name, [2], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                self.assertAlmostEqual(found.runs[0]["values"]["linear"], 2, places=5)
+
+
 class Best(PeerTest):
 
     def test_second_order_moments(self):

@@ -34,7 +34,8 @@ _TOLERANCE = 1e-10
 _ROUND_OFF = 1e-14  # absolute tolerance of rotations, and of displacements over the length
 _MOST_ITERATIONS = 100
 _LEAST_STEP = 1 / 64
-_STEPS: dict[tuple[str, str], int] = {}  # steps between stations that converged last
+_TURN = 0.5  # [rad] most rotation of a node in a step, in which Newton's method may find another equilibrium
+_STEPS: dict[tuple[str, int, str], int] = {}  # steps between stations that converged last
 
 
 def version() -> str:
@@ -177,7 +178,7 @@ class Frame(Model):
     def loads(self, p: float | None) -> dict[int, list[float]]:
         total: dict[int, list[float]] = {}
         for load in self.scene.loads:
-            factor = 1.0 if p is None else float(self.scene.load_factor(load, p))
+            factor = float(self.scene.load_factor(load, 1.0 if p is None else p))
             for number, vector in nodal(load, self.mesh).items():
                 target = total.setdefault(number, [0.0] * 6)
                 for i in range(6):
@@ -254,7 +255,11 @@ class Frame(Model):
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
 
     def _static(self, analysis: Analysis) -> Answer:
-        steps = _STEPS.get((self.scene.name, analysis.name), 1)
+        for (_, dof), motion in self.driven.items():
+            if dof >= 3 and any(v != 0 for v in self.scene.motions[motion]["value"]):
+                raise Refused("drive: elements of Kratos turn by less than a driven rotation, by a 24th of its cube in each step")
+        key = (self.scene.name, len(self.mesh.elements), analysis.name)
+        steps = _STEPS.get(key, 1)
         while True:
             part, self.model = self.model, None
             if part is None:
@@ -266,9 +271,9 @@ class Frame(Model):
                 self.owners.append(self.owner)
                 return answer
             steps *= 2
-            _STEPS[self.scene.name, analysis.name] = steps
+            _STEPS[key] = steps
             if 1 / steps < _LEAST_STEP:
-                del _STEPS[self.scene.name, analysis.name]
+                del _STEPS[key]
                 raise Failed("Newton's method fails or leaves loads and reactions unbalanced")
 
     def _walk(self, part: Any, analysis: Analysis, steps: int) -> Answer | None:
@@ -292,13 +297,22 @@ class Frame(Model):
                 }
                 moved = {at: (1 - s) * last_drives[at] + s * drives[at] for at in drives}
                 part.CloneTimeStep(float(len(states)) + s)
-                if not self.run(part, strategy, now, moved):
+                before = self._rotations(part)
+                if not self.run(part, strategy, now, moved) or any(
+                    abs(a - b) > _TURN for a, b in zip(self._rotations(part), before)
+                ):
                     return None
                 iterations += int(part.ProcessInfo[self.km.NL_ITERATION_NUMBER])
             states.append(self._state(part))
             if analysis.name in self.wanted:
                 states[-1].compliance = self._inverse(part, self.wanted[analysis.name])
         return Answer(states=states, iterations=iterations)
+
+    def _rotations(self, part: Any) -> list[float]:
+        """Returns the components of the rotations of all nodes."""
+        return [
+            float(node.GetSolutionStepValue(v)) for node in part.Nodes for v in self.displacements[3:]
+        ]
 
     def _state(self, part: Any, linear: bool = False) -> State:
         """Returns the state, without rotations if they are large: ROTATION is the sum of the

@@ -92,10 +92,11 @@ class Bars(Model):
         """Returns the lines of the loads. Loads along members act on nodes."""
         out = []
         for load in self.scene.loads:
+            factor = float(self.scene.load_factor(load, 1.0))
             for number, vector in nodal(load, self.mesh).items():
                 for word, part in (("FORCE", vector[:3]), ("MOMENT", vector[3:])):
                     if any(v != 0 for v in part):
-                        out.append(_card(word, 10, number + 1, 0, 1.0, *map(float, part)))
+                        out.append(_card(word, 10, number + 1, 0, factor, *map(float, part)))
         return "".join(out)
 
     def _run(self, solution: int, control: str, more: str = "") -> list[str]:

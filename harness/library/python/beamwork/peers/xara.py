@@ -58,7 +58,7 @@ ELEMENTS = {
 
 _STIFF = 1e6  # shear stiffness of a rigid section, over EI/L^2; 1e7 needs a hundred times the steps in roll_up
 _LEAST_STEP = 1 / 512
-_STEPS: dict[tuple[str, str, str], int] = {}  # steps between stations that converged last
+_STEPS: dict[tuple[str, str, int, str], int] = {}  # steps between stations that converged last
 
 
 def version() -> str:
@@ -234,7 +234,7 @@ class Frame(Model):
 
         for load in self.scene.loads:
             tag += 1
-            values = [float(self.scene.load_factor(load, p)) for p in stations] or [1.0]
+            values = [float(self.scene.load_factor(load, p)) for p in stations or [1.0]]
             self._add_pattern(model, tag, series(values))
             for number, vector in nodal(load, self.mesh).items():
                 model.load(number, *vector, pattern=tag)
@@ -292,7 +292,7 @@ class Frame(Model):
         states: list[State] = []
         turns = self.no_turns()
         iterations = 0
-        key = (self.scene.name, self.element, analysis.name)
+        key = (self.scene.name, self.element, len(self.mesh.elements), analysis.name)
         step = 1.0 / _STEPS.get(key, self._least_steps(len(analysis.stations)))
         for station in range(len(analysis.stations)):
             time = float(station)
