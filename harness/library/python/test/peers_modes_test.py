@@ -160,6 +160,16 @@ class Modes(PeerTest):
             self.assertNotIn("f_0", found.runs[0].get("values", {}), found.runs[0])
         self.each(check)
 
+    def test_body(self):
+        """A body at the tip changes the frequencies as it does in ours."""
+        def check(peer, name, element):
+            if "nodes.mass" not in element.keys:
+                return
+            made = bar(element)
+            made.nodes["b"].update(mass=30, inertia=[1, 2, 3, 0, 0, 0])
+            np.testing.assert_allclose(self.solved(peer, name, made)[:6], self.ours(made)[:6], rtol=1.5e-2)
+        self.each(check)
+
     def test_ring(self):
         """A free ring: six rigid-body motions, and double frequencies of bending that converge to the closed form."""
         def check(peer, name, element):

@@ -21,7 +21,7 @@ REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane"}
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane", "nodes.mass", "nodes.inertia"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -31,7 +31,8 @@ ELEMENTS = {
     "forceBeamColumnCBDI": Element("force-based with second-order moments inside the element (CBDI), 5 Lobatto points, corotational;"
                                    " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
     "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
-    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=KEYS | {"plane"}),
+    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}),
+                                     keys=KEYS | {"plane", "nodes.mass", "nodes.inertia"}),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
@@ -266,15 +267,22 @@ class Corotational(Model):
         return Answer(frequencies=found, families=families(self.mesh, found, list(shapes)), iterations=1)
 
     def _add_inertia(self) -> None:
+        """Adds bodies to the nodes, and the rotary inertia that the elements lack."""
+        added = {number: [0.0] * 3 for number in range(len(self.mesh.nodes))}
         if self.name == "ElasticTimoshenkoBeam":
             for s in self.scene.sections.values():
                 own = [s.rho_A * EI / s.EA for EI in (s.EIy, s.EIz)]
                 if any(abs(a - b) > 1e-6 * (a + b) for a, b in zip(own, s.rho_I[1:])):
                     raise Refused("rotary inertia: ElasticTimoshenkoBeam has that of a homogeneous section, and always")
-            return
-        twists = self.name == "elasticBeamColumn"
-        for number, inertia in diagonal_inertia(self.mesh, lambda s: (0.0 if twists else s.rho_I[0], *s.rho_I[1:]), PROGRAM).items():
-            self.ops.mass(number, 0.0, 0.0, 0.0, *inertia)
+        else:
+            twists = self.name == "elasticBeamColumn"
+            added |= diagonal_inertia(self.mesh, lambda s: (0.0 if twists else s.rho_I[0], *s.rho_I[1:]), PROGRAM)
+        bodies = {self.mesh.node_of[node.name]: node.raw for node in self.scene.nodes.values()}
+        for number, rotary in added.items():
+            mass, inertia = bodies.get(number, {}).get("mass", 0.0), bodies.get(number, {}).get("inertia", [0.0] * 6)
+            if any(inertia[3:]):
+                raise Refused("inertia: bodies of OpenSees have no products of inertia")
+            self.ops.mass(number, *[float(mass)] * 3, *(a + float(b) for a, b in zip(rotary, inertia)))
 
     def matrices(self) -> tuple[Any, Any]:
         """Returns the mass and the tangent stiffness matrix of the current state, of all equations."""
