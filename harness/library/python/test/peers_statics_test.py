@@ -240,6 +240,18 @@ class MBDyn(ModuleTest):
         made.loads["q"] = {"distributed": [0, 0, 0], "to_value": [0, 1e-4, 0], "on": "bar"}
         self.assertAlmostEqual(self.value(made, "uy")[0] / (11e-4 / 120), 1, delta=2e-3)
 
+    def test_compliance(self):
+        """Compliances of a deflected sheet, on which several programs agree."""
+        words = ("sheet_cantilever", "--set", "trapeze=0", "--set", "warping=0", "--set", "shear_factor=0.8333333333333334")
+        scene = json.loads(self.answered("scene", *words, "--format", "json").stdout)
+        found = peers.solve(scene, "mbdyn", "beam3", [8], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        values = found.runs[0]["values"]
+        self.assertAlmostEqual(values["C_zz"] / 8.206386e-8, 1, delta=1e-3)
+        self.assertAlmostEqual(values["C_xx"] / 3.9726242e-7, 1, delta=1e-4)
+        self.assertAlmostEqual(values["u_x"] / -1.3586446e-3, 1, delta=1e-4)
+
     def test_body(self):
         """A bar is clamped at one end; a body at the other end is turned by a prescribed rotation vector. The moment is
         4 EI/L or GJ/L times the angle."""

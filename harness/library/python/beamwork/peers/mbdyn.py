@@ -8,11 +8,11 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from ._loads import KEYS, nodal, vectors
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Node, Refused, Scene, State, Vector,
-                   rotation_vector, times)
+                   product, rotation, rotation_vector, times)
 
 NAME, PROGRAM, LICENCE = "mbdyn", "MBDyn", "GPL-2.0"
 HOMEPAGE = "https://www.mbdyn.org"
@@ -20,11 +20,13 @@ REQUIRES = ()
 _OFFERS = frozenset({"shear", "large rotations", "coupled section"})
 _KEYS = KEYS | {"loads.follower", "nodes.part_of", "nodes.rotation", "plane"}
 ELEMENTS = {
-    "beam3": Element("geometrically exact, 3 nodes", _OFFERS, frozenset({"static"}), 2, _KEYS),
-    "beam2": Element("geometrically exact, 2 nodes", _OFFERS, frozenset({"static"}), 1, _KEYS),
+    "beam3": Element("geometrically exact, 3 nodes", _OFFERS, frozenset({"static", "compliance"}), 2, _KEYS),
+    "beam2": Element("geometrically exact, 2 nodes", _OFFERS, frozenset({"static", "compliance"}), 1, _KEYS),
 }
 _RIGID = 1e6  # shear stiffness of sections that are rigid in shear, over EI/length^2
 _FIRST, _MOST = 24, 1536  # steps of a path
+_SMALL, _CYCLE = 1e-6, 13  # displacements, over the length, and rotations for central differences; steps for all of them
+_Rows = list[dict[int, list[float]]]
 _TURN = 0.7  # [rad] with a larger rotation of a node in a step, Newton's method may find another equilibrium
 
 
@@ -59,6 +61,7 @@ class Beams(Model):
         self.owner = {number: self._owner(number) for number in range(len(mesh.nodes))}
         self.labels = sorted(set(self.owner.values()))
         self.joints, held = dict[str, int](), 0
+        self.paths: dict[str, tuple[int, _Rows]] = {}  # steps between stations and states after the steps of analyses
         for node in scene.nodes.values():
             held += self._held(node)
         self.unknowns = 6 * len(self.labels) - held
@@ -116,10 +119,17 @@ class Beams(Model):
         return f"  {self.name}: {index + 1}, {', '.join(ends)}, from nodes, {', '.join(law)};\n"
 
     def _joint(self, node: Node, curve: _Curve) -> str:
+        if curve.held is not None and curve.held[0] == node.name:
+            return self._pin(node, set(COMPONENTS), curve.held[1])
         held, zero = self._components(node), [(0.0, 0.0), (1.0, 0.0)]
         drives = [curve.of_motion(node.drive[c]) if c in node.drive else zero for c in COMPONENTS]
         if "rotation" in node.raw:
             drives[3:] = self._rotation(node, curve)
+        return self._pin(node, held, drives)
+
+    def _pin(self, node: Node, held: set[str], drives: list[list[tuple[float, float]]]) -> str:
+        """Returns the joint that prescribes displacements and the rotation vector of a node."""
+        drives = [*drives]
         drives[:3] = [[(t, v / self.length) for t, v in points] for points in drives[:3]]
         place = f"reference, global, {_list(x / self.length for x in node.at)}"
         axes = "position orientation, reference, global, eye, rotation orientation, reference, global, eye"
@@ -129,7 +139,7 @@ class Beams(Model):
             values = ", ".join(_drive(points) for points in drives[first:first + 3])
             return f"{word} constraint, {active}, component, {values}"
 
-        return (f"  joint: {self.joints[node.name]}, total pin joint, {self.mesh.node_of[node.name] + 1}, position, null, {axes}, "
+        return (f"  joint: {self._label(node.name)}, total pin joint, {self.mesh.node_of[node.name] + 1}, position, null, {axes}, "
                 f"position, {place}, {axes}, {part('position', 0)}, {part('orientation', 3)};\n")
 
     def _rotation(self, node: Node, curve: _Curve) -> list[list[tuple[float, float]]]:
@@ -157,17 +167,19 @@ class Beams(Model):
         """Returns the vector from the body to a node of the mesh, in the units of the input file."""
         return [(a - b) / self.length for a, b in zip(self.mesh.nodes[number].at, self.mesh.nodes[self.owner[number]].at)]
 
-    def _deck(self, steps: int, stations: Sequence[float]) -> str:
-        curve = _Curve(self.scene, stations)
+    def _label(self, name: str) -> int:
+        return self.joints.get(name, len(self.joints) + 1)
+
+    def _deck(self, steps: int, curve: _Curve) -> str:
         forces: list[str] = []
         for load, at in self.loads:
             for number, vector in at.items():
                 forces += self._force(len(forces) + 1, load, number, vector, curve)
-        joints = [self._joint(self.scene.nodes[name], curve) for name in self.joints]
+        joints = [self._joint(self.scene.nodes[name], curve) for name in curve.supported(self.joints)]
         beams = [self._beam(i) for i in range(len(self.mesh.elements))]
         nodes = [f"  structural: {k + 1}, static, {_list(x / self.length for x in self.mesh.nodes[k].at)}, eye, null, null;\n" for k in self.labels]
         return (f"begin: data;\n  problem: initial value;\nend: data;\nbegin: initial value;\n  initial time: 0.;\n"
-                f"  final time: {len(stations)};\n  time step: {1 / steps:.17g};\n  max iterations: 40;\n"
+                f"  final time: {curve.end():.17g};\n  time step: {1 / steps:.17g};\n  max iterations: 40;\n"
                 f"  tolerance: {self._tolerance():.3g};\n  method: implicit euler;\n  derivatives tolerance: 1e30;\n"
                 "  linear solver: umfpack;\n  output: none;\nend: initial value;\nbegin: control data;\n"
                 "  skip initial joint assembly;\n  default orientation: orientation matrix;\n  output precision: 16;\n"
@@ -186,20 +198,34 @@ class Beams(Model):
         return float(max(1e-9 * max(sizes) if any(sizes) else 1e-9, rounding))
 
     def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "compliance":
+            return self._compliance(analysis)
         count = len(analysis.stations)
         steps = max(1, math.ceil(_FIRST / count))
         while steps * count <= max(_MOST, count):
-            answer = self._run(steps, analysis.stations)
+            answer = self._run(steps, analysis)
             if answer is not None:
                 return answer
             steps *= 2
         raise Failed(f"MBDyn does not converge with {steps * count // 2} steps")
 
-    def _run(self, steps: int, stations: Sequence[float]) -> Answer | None:
+    def _run(self, steps: int, analysis: Analysis) -> Answer | None:
+        stations = analysis.stations
+        found = self._output(self._deck(steps, _Curve(self.scene, stations)), steps * len(stations))
+        if found is None:
+            return None
+        moved, forces, iterations = found
+        if any(_angle(a[k], b[k]) > _TURN for a, b in zip(moved, moved[1:]) for k in a):
+            return None
+        self.paths[analysis.name] = steps, moved
+        picked = [steps * (k + 1) - 1 for k in range(len(stations))]
+        return Answer([self._state(moved[i], forces[i] if forces else {}) for i in picked], iterations=iterations)
+
+    def _output(self, deck: str, count: int) -> tuple[_Rows, _Rows, int] | None:
+        """Runs the program. Returns the rows of nodes and joints after each of the steps; None: it does not converge."""
         with tempfile.TemporaryDirectory() as folder:
-            deck = pathlib.Path(folder, "deck")
-            deck.write_text(self._deck(steps, stations), encoding="ascii")
-            done = subprocess.run([_program(), "-f", deck.name, "-o", "out"], cwd=folder, capture_output=True, text=True, check=False)
+            pathlib.Path(folder, "deck").write_text(deck, encoding="ascii")
+            done = subprocess.run([_program(), "-f", "deck", "-o", "out"], cwd=folder, capture_output=True, text=True, check=False)
             told = done.stdout + done.stderr
             found = re.search(r"total iterations: (\d+)", told)
             if done.returncode != 0 or found is None:
@@ -207,14 +233,40 @@ class Beams(Model):
                     raise Failed(f"MBDyn: {told.strip().splitlines()[-1] if told.strip() else 'no output'}")
                 return None
             moved = _blocks(pathlib.Path(folder, "out.mov"), len(self.labels))
-            forces = _blocks(pathlib.Path(folder, "out.jnt"), len(self.joints))
-        if len(moved) < steps * len(stations):
-            return None
-        first = len(moved) - steps * len(stations)
-        if any(_angle(a[k], b[k]) > _TURN for a, b in zip(moved, moved[1:]) for k in a):
-            return None
-        picked = [first + steps * (k + 1) - 1 for k in range(len(stations))]
-        return Answer([self._state(moved[i], forces[i] if forces else {}) for i in picked], iterations=int(found.group(1)))
+            forces = _blocks(pathlib.Path(folder, "out.jnt"), int(deck.split("  joints: ")[1].split(";")[0]))
+        return (moved[-count:], forces[-count:], int(found.group(1))) if len(moved) >= count else None
+
+    def _compliance(self, analysis: Analysis) -> Answer:
+        """Repeats the path with all components of the node prescribed, as they were. After each station, each of them is
+        moved forth and back, which gives the stiffness of the node by central differences."""
+        import numpy  # pylint: disable=import-outside-toplevel
+        name = analysis.raw["node"]
+        node, number = self.scene.nodes[name], self.mesh.node_of[name]
+        if self.owner[number] != number:
+            raise Refused(f"part_of: {name} is part of a body")
+        stations: Sequence[float] = (1.0,)
+        steps, rows = 1, [[*(x / self.length for x in node.at), *(float(i == k) for i in range(3) for k in range(3))]]
+        if analysis.about is not None:
+            stations = self.scene.analyses[analysis.about].stations
+            steps, moved = self.paths[analysis.about]
+            rows = [row[number + 1] for row in moved]
+        curve = _Curve(self.scene, stations, _CYCLE / steps, loaded=analysis.about is not None)
+        curve.held = name, curve.cycles(rows, steps, [x / self.length for x in node.at], self.length)
+        found = self._output(self._deck(steps, curve), (steps + _CYCLE) * len(stations))
+        if found is None:
+            raise Failed("MBDyn does not converge while it moves the node of the compliance")
+        held = self._components(node) - set(analysis.raw.get("released", ()))
+        free = [i for i, c in enumerate(COMPONENTS) if c not in held]
+        units = numpy.array([self.force] * 3 + [self.force * self.length] * 3)
+        states = []
+        for k in range(len(stations)):
+            first = (steps + _CYCLE) * k + steps
+            force = [-numpy.array(found[1][first + i][self._label(name)][6:12]) * units for i in range(12)]
+            K = numpy.array([(force[2 * i] - force[2 * i + 1]) / (2 * _SMALL * (self.length if i < 3 else 1)) for i in range(6)]).T
+            C = numpy.zeros((6, 6))
+            C[numpy.ix_(free, free)] = numpy.linalg.inv(K[numpy.ix_(free, free)])
+            states.append(State(compliance=C.tolist()))
+        return Answer(states, iterations=found[2])
 
     def _state(self, moved: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
         u: dict[str, list[float | None]] = {}
@@ -239,21 +291,50 @@ class Beams(Model):
 class _Curve:
     """Values over the time of the program, in which the stations are at 1, 2, 3 and so on."""
 
-    def __init__(self, scene: Scene, stations: Sequence[float]) -> None:
-        self.scene, self.stations = scene, [0.0, *stations]
+    def __init__(self, scene: Scene, stations: Sequence[float], pause: float = 0.0, loaded: bool = True) -> None:
+        """pause: time after each station in which loads and motions do not change."""
+        self.scene, self.stations, self.pause, self.loaded = scene, [0.0, *stations], pause, loaded
+        self.held: tuple[str, list[list[tuple[float, float]]]] | None = None
+
+    def end(self) -> float:
+        return (len(self.stations) - 1) * (1 + self.pause)
+
+    def supported(self, joints: Mapping[str, int]) -> list[str]:
+        return [*joints, *([self.held[0]] if self.held is not None and self.held[0] not in joints else [])]
+
+    def cycles(self, rows: Sequence[Sequence[float]], steps: int, start: Vector, length: float) -> list[list[tuple[float, float]]]:
+        """Returns the components of a node that moves as in `rows` and is moved forth and back at the stations."""
+        out: list[list[tuple[float, float]]] = [[(0.0, 0.0)] for _ in range(6)]
+
+        def add(time: float, u: Sequence[float], R: Sequence[Vector]) -> None:
+            for points, value in zip(out, [*(length * x for x in u), *rotation_vector(R)]):
+                points.append((time, value))
+
+        for i, row in enumerate(rows):
+            time = (i + 1) / steps + i // steps * self.pause
+            u, R = [a - b for a, b in zip(row[:3], start)], [row[3:6], row[6:9], row[9:12]]
+            add(time, u, R)
+            if (i + 1) % steps == 0:
+                for k in range(12):
+                    by = [(_SMALL if k % 2 == 0 else -_SMALL) * (j == k // 2) for j in range(6)]
+                    add(time + (k + 1) / steps, [a + b for a, b in zip(u, by)], product(rotation(by[3:]), R))
+                add(time + _CYCLE / steps, u, R)
+        return out
 
     def _points(self, inner: Iterable[float]) -> list[tuple[float, float]]:
         """Returns the times and the path parameters of the stations and of the given path parameters."""
         out = []
         for k, (a, b) in enumerate(zip(self.stations, self.stations[1:])):
-            out += [(k + (p - a) / (b - a), p) for p in sorted({a, *(p for p in inner if a < p < b)})]
-        return out + [(len(self.stations) - 1.0, self.stations[-1])]
+            begin = k * (1 + self.pause)
+            out += [(begin + (p - a) / (b - a), p) for p in sorted({a, b, *(p for p in inner if a < p < b)})]
+            out += [(begin + 1 + self.pause, b)] if self.pause > 0 and k < len(self.stations) - 2 else []
+        return sorted(set(out))
 
     def of_load(self, load: Load) -> list[tuple[float, float]]:
-        return [(t, self.scene.load_factor(load, p)) for t, p in self._points(load.raw.get("path", ()))]
+        return [(t, self.scene.load_factor(load, p) * self.loaded) for t, p in self._points(load.raw.get("path", ()))]
 
     def of_motion(self, name: str) -> list[tuple[float, float]]:
-        return [(t, self.scene.motion_value(name, p)) for t, p in self._points(self.scene.motions[name]["path"])]
+        return [(t, self.scene.motion_value(name, p) * self.loaded) for t, p in self._points(self.scene.motions[name]["path"])]
 
 
 def _drive(points: Sequence[tuple[float, float]]) -> str:
@@ -267,7 +348,7 @@ def _angle(a: Sequence[float], b: Sequence[float]) -> float:
     return math.acos(max(-1.0, min(1.0, (sum(x * y for x, y in zip(a[3:12], b[3:12])) - 1) / 2)))
 
 
-def _blocks(file: pathlib.Path, size: int) -> list[dict[int, list[float]]]:
+def _blocks(file: pathlib.Path, size: int) -> _Rows:
     """Returns the rows of an output file by label, for each output."""
     if size == 0:
         return []
