@@ -21,10 +21,10 @@ def _number(value: float | None, digits: int = 3) -> str:
 
 
 def _row(row: Mapping[str, Any], unit: float | None) -> str:
-    seconds = f"{_number(1e3 * row['time'] * unit):>9}" if unit else ""
+    seconds = f" {_number(1e3 * row['time'] * unit):>8}" if unit else ""
     name = f"{row['name']} (beamwork)" if row["ours"] else row["name"]
     return (f"  {name:<36}{row['elements']:>4}{row['unknowns'] or '-':>9}{row['systems'] or '-':>9}"
-            f"{_number(100 * abs(row['error']), 2):>9} %{seconds}{_number(row['ratio']):>8}")
+            f"{_number(100 * abs(row['error']), 2):>9} %{seconds} {_number(row['ratio']):>7}")
 
 
 def _refusals(record: Mapping[str, Any]) -> Iterator[str]:
