@@ -244,29 +244,55 @@ class Beams(Model):
         node, number = self.scene.nodes[name], self.mesh.node_of[name]
         if self.owner[number] != number:
             raise Refused(f"part_of: {name} is part of a body")
+        found = self._moved(analysis, node)
+        if found is None and analysis.about is not None:  # with smaller steps of the path
+            self._run(4 * self.paths[analysis.about][0], self.scene.analyses[analysis.about])
+            found = self._moved(analysis, node)
+        if found is None:
+            raise Failed("MBDyn does not converge while it moves the node of the compliance")
+        forces, steps, count, iterations = found
+        held = self._components(node) - set(analysis.raw.get("released", ()))
+        free = [i for i, c in enumerate(COMPONENTS) if c not in held]
+        units = numpy.array([self.force] * 3 + [self.force * self.length] * 3)
+        states = []
+        for k in range(count):
+            first = (steps + _CYCLE) * k + steps
+            force = [-numpy.array(forces[first + i][self._label(name)][6:12]) * units for i in range(12)]
+            K = numpy.array([(force[2 * i] - force[2 * i + 1]) / (2 * _SMALL * (self.length if i < 3 else 1)) for i in range(6)]).T
+            C = numpy.zeros((6, 6))
+            C[numpy.ix_(free, free)] = numpy.linalg.inv(K[numpy.ix_(free, free)])
+            states.append(State(compliance=C.tolist()))
+        return Answer(states, iterations=iterations)
+
+    def _moved(self, analysis: Analysis, node: Node) -> tuple[_Rows, int, int, int] | None:
+        """Moves the node of a compliance. Returns the rows of joints, the steps between stations, the number of stations and
+        of iterations; None: it does not converge."""
         stations: Sequence[float] = (1.0,)
         steps, rows = 1, [[*(x / self.length for x in node.at), *(float(i == k) for i in range(3) for k in range(3))]]
         if analysis.about is not None:
             stations = self.scene.analyses[analysis.about].stations
             steps, moved = self.paths[analysis.about]
-            rows = [row[number + 1] for row in moved]
+            rows = [row[self.mesh.node_of[node.name] + 1] for row in moved]
         curve = _Curve(self.scene, stations, _CYCLE / steps, loaded=analysis.about is not None)
-        curve.held = name, curve.cycles(rows, steps, [x / self.length for x in node.at], self.length)
+        curve.held = node.name, curve.cycles(rows, steps, [x / self.length for x in node.at], self.length)
         found = self._output(self._deck(steps, curve), (steps + _CYCLE) * len(stations))
-        if found is None:
-            raise Failed("MBDyn does not converge while it moves the node of the compliance")
-        held = self._components(node) - set(analysis.raw.get("released", ()))
-        free = [i for i, c in enumerate(COMPONENTS) if c not in held]
-        units = numpy.array([self.force] * 3 + [self.force * self.length] * 3)
-        states = []
-        for k in range(len(stations)):
-            first = (steps + _CYCLE) * k + steps
-            force = [-numpy.array(found[1][first + i][self._label(name)][6:12]) * units for i in range(12)]
-            K = numpy.array([(force[2 * i] - force[2 * i + 1]) / (2 * _SMALL * (self.length if i < 3 else 1)) for i in range(6)]).T
-            C = numpy.zeros((6, 6))
-            C[numpy.ix_(free, free)] = numpy.linalg.inv(K[numpy.ix_(free, free)])
-            states.append(State(compliance=C.tolist()))
-        return Answer(states, iterations=found[2])
+        if found is None or not self._same_states(found[1], steps, len(stations), node):
+            return None
+        return found[1], steps, len(stations), found[2]
+
+    def _same_states(self, rows: _Rows, steps: int, count: int, node: Node) -> bool:
+        """Returns False if the structure jumped to another equilibrium: if forces are not the same before and after small
+        displacements, change by different amounts in both directions, or act on components that are free on the path."""
+        free = [i for i, c in enumerate(COMPONENTS) if c not in self._components(node)]
+        for k in range(count):
+            first = (steps + _CYCLE) * k + steps - 1
+            before, *pairs, after = [rows[first + i][self._label(node.name)][6:12] for i in range(_CYCLE + 1)]
+            changes = [[b - a for a, b in zip(before, force)] for force in pairs]
+            most = max(abs(x) for change in changes for x in change)
+            uneven = max(abs(x + y) for a, b in zip(changes[::2], changes[1::2]) for x, y in zip(a, b))
+            if max(uneven, *(abs(a - b) for a, b in zip(before, after)), *(1e-2 * abs(before[i]) for i in free)) > 1e-2 * most:
+                return False
+        return True
 
     def _state(self, moved: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
         u: dict[str, list[float | None]] = {}
