@@ -31,12 +31,6 @@ def body(node: Node) -> tuple[float, list[float]]:
     return float(node.raw.get("mass", 0)), [float(v) for v in node.raw.get("inertia", (0, ) * 6)]
 
 
-def asked(scene: Scene) -> set[str]:
-    """Returns the nodes in quantities of motions."""
-    return {q.raw[key] for q in scene.quantities for key in ("node", "from")
-            if key in q.raw and q.analysis in scene.analyses and scene.analyses[q.analysis].kind == "motion"}
-
-
 class Sensors:
     """Histories of outputs of items. Each is an array of rows [time, values...]."""
 
@@ -130,7 +124,8 @@ def _start_rates(model: Any, analysis: Analysis) -> None:
     slopes = {}
     for name, node in model.scene.nodes.items():
         for word, motion in node.drive.items():
-            slopes[name, word] = _slope(_motion.drive_value(model.scene, motion, analysis), analysis.stations[-1])
+            slopes[name, word] = _motion.derivatives(_motion.drive_value(model.scene, motion, analysis),
+                                                     1e-6 * analysis.stations[-1])[0](0.0)
     types = model.exu.OutputVariableType
     for name, number in model.all_nodes():
         at = [float(x) for x in mbs.GetNodeOutput(number, types.Position)]
@@ -142,11 +137,6 @@ def _start_rates(model: Any, analysis: Analysis) -> None:
         for k, rate in enumerate(model.coordinate_rates(number, v, w)):
             rates[first + k] = rate
     data.SetODE2Coordinates_t(rates, configuration=configuration.Initial)
-
-
-def _slope(f: _motion.Function, last: float) -> float:
-    e = 1e-6 * last
-    return (4 * f(e) - f(2 * e) - 3 * f(0.0)) / (2 * e)
 
 
 def quaternion_rate(p: list[float], w: list[float]) -> list[float]:
@@ -194,5 +184,12 @@ def _energy(model: Any, solver: Any) -> dict[str, float]:
     solver.ComputeMassMatrix(model.mbs)
     rates = model.mbs.systemData.GetODE2Coordinates_t()
     kinetic = float(rates @ solver.GetSystemMassMatrix() @ rates) / 2
-    strain = model.strain_energy()
+    strain, types = 0.0, model.exu.OutputVariableType
+    for element, beam in model.beams:
+        half = element.length / 12**0.5
+        places = [0.0] if len(element.nodes) == 2 else [-half, half]  # the points of integration
+        for x in places:
+            forces = [float(f) for which in (types.ForceLocal, types.TorqueLocal)
+                      for f in model.mbs.GetObjectOutputBody(beam, which, [x, 0, 0])]
+            strain += element.length / len(places) / 2 * sum(f**2 / k for f, k in zip(forces, model.stiffness_of(element)))
     return {"kinetic": kinetic, "strain": strain, "energy": kinetic + strain}

@@ -92,6 +92,42 @@ def drive_value(scene: Scene, name: str, analysis: Analysis) -> Function:
     return found or (lambda t: last)
 
 
+def derivatives(f: Function, step: float) -> tuple[Function, Function]:
+    """Returns the first and second derivatives of a function of time, by differences over `step`; at 0 s from the right."""
+    def rate(t: float) -> float:
+        return (f(t + step) - f(t - step)) / (2 * step) if t >= step else (4 * f(t + step) - f(t + 2 * step) - 3 * f(t)) / (2 * step)
+
+    def acceleration(t: float) -> float:
+        t = max(t, step)
+        return (f(t + step) - 2 * f(t) + f(t - step)) / step**2
+
+    return rate, acceleration
+
+
+def asked(scene: Scene) -> set[str]:
+    """Returns the nodes in quantities of motions."""
+    return {q.raw[key] for q in scene.quantities for key in ("node", "from")
+            if key in q.raw and q.analysis in scene.analyses and scene.analyses[q.analysis].kind == "motion"}
+
+
+def normal(scene: Scene) -> int | None:
+    """Returns the index of the global axis perpendicular to the plane of a scene that stays in a plane; None: it does not."""
+    for k in range(3):
+        others = [i for i in range(3) if i != k]
+        level = next(iter(scene.nodes.values())).at[k]
+        straight = all(abs(abs(member.axes[k][1]) - 1) < 1e-12 or abs(abs(member.axes[k][2]) - 1) < 1e-12
+                       for member in scene.members.values())
+        bent = any(member.curvature[0] != 0 or member.curvature[2 if abs(member.axes[k][1]) > 0.5 else 1] != 0
+                   for member in scene.members.values())
+        across = any(any(load.vector[i] != 0 for i in others) if load.kind == "moment" else load.vector[k] != 0 for load in scene.loads)
+        driven = any(c in node.drive for node in scene.nodes.values() for c in ("u" + "xyz"[k], *("r" + "xyz"[i] for i in others)))
+        starts = [a.raw.get("start", {}) for a in scene.analyses.values()]
+        leaves = any(s.get("velocity", (0, 0, 0))[k] != 0 or any(s.get("spin", (0, 0, 0))[i] != 0 for i in others) for s in starts)
+        if all(node.at[k] == level for node in scene.nodes.values()) and straight and not (bent or across or driven or leaves):
+            return k
+    return None
+
+
 def start_velocity(analysis: Analysis, at: Vector) -> tuple[list[float], list[float]]:
     """Returns the velocity of a node, and its angular velocity along fixed axes, at the start of a motion."""
     start = analysis.raw.get("start", {})

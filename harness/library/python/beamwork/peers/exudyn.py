@@ -6,7 +6,7 @@ import importlib.metadata
 import math
 from typing import Any
 
-from . import _exudyn_motion
+from . import _exudyn_motion, _motion
 from ._exudyn_joint import torque_of
 from ._exudyn_modes import compliance, modal
 from ._loads import KEYS, nodal, vectors
@@ -236,7 +236,8 @@ class Steps(Model):
         """Returns the rates of the coordinates of a node from its velocity and angular velocity."""
         raise NotImplementedError
 
-    def strain_energy(self) -> float:
+    def stiffness_of(self, element: MeshElement) -> Any:
+        """Returns the stiffnesses for (gx, gy, gz, kx, ky, kz) in the axes in which the program gives resultants."""
         raise NotImplementedError
 
 
@@ -300,7 +301,7 @@ class Plane(Steps):
         return [rotation([0, 0, angle]) for angle in angles]
 
     def state(self, get: Any = None) -> State:
-        known, get = _exudyn_motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
+        known, get = _motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
         u, rate, reaction = dict[str, Any](), dict[str, Any](), dict[str, Any]()
         for name in known:
             number = self.nodes[self.mesh.node_of[name]]
@@ -319,18 +320,9 @@ class Plane(Steps):
     def coordinate_rates(self, node: int, v: list[float], w: list[float]) -> list[float]:
         return [v[0], v[1], w[2]]
 
-    def strain_energy(self) -> float:
-        total, types = 0.0, self.exu.OutputVariableType
-        for element, beam in self.beams:
-            s, shear = element.member.section, _shear(element.member.section, self.scene)
-            z = abs(element.R[2][2]) > 0.5
-            places = [0.0] if len(element.nodes) == 2 else [-element.length / 12**0.5, element.length / 12**0.5]
-            for x in places:
-                strain, bend = (self.mbs.GetObjectOutputBody(beam, getattr(types, which), [x, 0, 0])
-                                for which in ("StrainLocal", "CurvatureLocal"))
-                total += element.length / len(places) / 2 * (s.EA * strain[0]**2 + shear[0 if z else 1] * strain[1]**2 +
-                                                             (s.EIz if z else s.EIy) * bend[2]**2)
-        return float(total)
+    def stiffness_of(self, element: MeshElement) -> Any:
+        s, shear, z = element.member.section, _shear(element.member.section, self.scene), abs(element.R[2][2]) > 0.5
+        return [s.EA, shear[0 if z else 1], math.inf, math.inf, math.inf, s.EIz if z else s.EIy]
 
 
 class Space(Steps):
@@ -447,7 +439,7 @@ class Space(Steps):
         self.turned += [(motion, joint, COMPONENTS.index(word)) for word, motion in driven]
 
     def state(self, get: Any = None) -> State:
-        known, get = _exudyn_motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
+        known, get = _motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
         u, rate, reaction = dict[str, Any](), dict[str, Any](), dict[str, Any]()
         for name in known:
             node = self.of[name][0]
@@ -482,14 +474,8 @@ class Space(Steps):
         reference = self.mbs.GetNode(node)["referenceCoordinates"]
         return [float(a) + b for a, b in zip(reference[3:], c[3:])]
 
-    def strain_energy(self) -> float:
-        total, types = 0.0, self.exu.OutputVariableType
-        for element, beam in self.beams:
-            stiffness = self._stiffness(element.member.section).diagonal()
-            strain = [float(x) for which in ("StrainLocal", "CurvatureLocal")
-                      for x in self.mbs.GetObjectOutputBody(beam, getattr(types, which), [0, 0, 0])[:3]]
-            total += element.length / 2 * sum(k * e**2 for k, e in zip(stiffness, strain))
-        return float(total)
+    def stiffness_of(self, element: MeshElement) -> Any:
+        return self._stiffness(element.member.section).diagonal()
 
 
 def build(scene: Scene, element: str, mesh: Mesh) -> Model:

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
+from . import _opensees_motion
 from ._loads import KEYS, acts, nodal
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
@@ -20,8 +21,8 @@ HOMEPAGE = "https://openseespydoc.readthedocs.io"
 REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.2; python_version < "3.12"')
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
-_ANALYSES = _STATICS | {"modal", "buckling"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane", "nodes.mass", "nodes.inertia"}
+_ANALYSES = _STATICS | {"modal", "buckling", "motion"}
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane", "loads.gravity", "nodes.mass", "nodes.inertia"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -63,6 +64,9 @@ class Corotational(Model):
         self.ops, self.scene, self.name, self.mesh = ops, scene, name, mesh
         self.settings = (f"Newton, NormDispIncr {1e-9 * (1 + scene.length()):.1e}, adaptive load steps; modes: LAPACK, with the "
                          "matrices of GimmeMCK")
+        self.moves = any(a.kind == "motion" for a in scene.analyses.values())
+        if self.moves:
+            self.settings = _opensees_motion.settings(scene.length())
         self.build({a.kind for a in scene.analyses.values()} == {"linear"})
 
     def build(self, linear: bool = False, moved: Mapping[int, Vector] | None = None) -> None:
@@ -93,7 +97,7 @@ class Corotational(Model):
                 constants = (scale * s.EA / E, E, G, scale * s.GIt / G, scale * s.EIy / E, scale * s.EIz / E, i)
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
-            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES else []))
+            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES and not self.moves else []))
         self._add_supports()
         length = scene.length()
         self.unknowns = 6 * len(mesh.nodes) - self.held
@@ -115,6 +119,8 @@ class Corotational(Model):
     def _series(self, tag: int, raw: Any, key: str) -> None:
         if key in raw:
             self.ops.timeSeries("Path", tag, "-time", *raw["path"], "-values", *raw[key], "-useLast")
+        elif key == "value":  # a function of time, which is 0 before the motion
+            self.ops.timeSeries("Constant", tag, "-factor", 0.0)
         else:
             self.ops.timeSeries("Linear", tag)
         self.ops.pattern("Plain", tag, tag)
@@ -134,6 +140,10 @@ class Corotational(Model):
                         ops.sp(self.mesh.node_of[node.name], COMPONENTS.index(component) + 1, 1.0)
             tag += 1
         for load in self.scene.loads:
+            if load.kind == "gravity":
+                if any(a.kind != "motion" for a in self.scene.analyses.values()):
+                    raise Refused("gravity: the driver has it in motions only")
+                continue
             self._series(tag, load.raw, "factor")
             if load.kind == "distributed" and self.linear and not {"to_value", "lumped"} & set(load.raw):
                 for i, element in enumerate(self.mesh.elements, 1):
@@ -151,6 +161,8 @@ class Corotational(Model):
             return self._modal(analysis)
         if analysis.kind == "buckling":
             return buckling(self)
+        if analysis.kind == "motion":
+            return _opensees_motion.motion(self, analysis)
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
         if analysis.kind == "continuation":

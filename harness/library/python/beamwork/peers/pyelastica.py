@@ -1,4 +1,4 @@
-"""PyElastica: discrete Cosserat rods. Equilibria are found by damped motion."""
+"""PyElastica: discrete Cosserat rods. Equilibria are found by damped motion; motions."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import importlib.metadata
 import math
 from typing import Any
 
+from . import _pyelastica_motion
 from .data import Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 from .data import rotation_vector
 
@@ -15,8 +16,9 @@ REQUIRES = ("pyelastica==1.0.0",)
 ELEMENTS = {
     "rod": Element(
         "Cosserat rod: a rod clamped at one end; statics by damped motion; order of convergence 1",
-        offers=frozenset({"shear", "large rotations"}),
-        analyses=frozenset({"static"}),
+        offers=frozenset({"shear", "large rotations", "mass", "rotary inertia"}),
+        analyses=frozenset({"static", "motion"}),
+        keys=frozenset({"loads.gravity"}),
     ),
 }
 _STEP = 0.2  # time step, over the time that the fastest wave needs for an element
@@ -41,10 +43,13 @@ class Rod(Model):
         self.settings = (
             f"PositionVerlet, AnalyticalLinearDamper, rotary inertia chosen, at rest within {_STILL:.0e} of the change"
         )
+        self.moves = any(a.kind == "motion" for a in scene.analyses.values())
         self._refuse()
         first, last = mesh.elements[0].nodes[0], mesh.elements[-1].nodes[-1]
         held = [self.scene.nodes[str(mesh.nodes[n].name)].hold for n in (first, last)]
-        if sorted(map(len, held)) != [0, 6]:
+        self.ends = [str(mesh.nodes[n].name) for n in (first, last)]
+        self.holds = [_pyelastica_motion.fixed(scene, h) for h in held]
+        if "" in self.holds or (sorted(map(len, held)) != [0, 6] and not self._only_moves()):
             raise Refused("hold: this driver has only rods with one clamped and one free end")
         self.reversed = len(held[0]) == 0
         self.section = mesh.elements[0].member.section
@@ -52,12 +57,19 @@ class Rod(Model):
             raise Refused("shear: the rods are not rigid in shear; give shear stiffnesses")
         self.unknowns = 6 * self.number
         self.steps = 0
+        if self.moves and ("rotary inertia" not in scene.physics or min(self.section.rho_I) <= 0 or self.section.rho_A <= 0):
+            raise Refused("rotary inertia: explicit steps require mass and inertia about all axes")
+        if self._only_moves():
+            self.settings = "PositionVerlet, without damping"
         self.rod = self._rod()
-        if not _COMPILED:
+        if not _COMPILED and not self._only_moves():
             self._equilibrium([[0.0] * 3] * 2)  # compiles the functions of the program
             _COMPILED.append(True)
             self.steps = 0
             self.rod = self._rod()
+
+    def _only_moves(self) -> bool:
+        return all(a.kind == "motion" for a in self.scene.analyses.values())
 
     def _refuse(self) -> None:
         if self.number < 2:
@@ -65,6 +77,8 @@ class Rod(Model):
         if len(self.scene.members) != 1:
             raise Refused("members: this driver has only one rod")
         for load in self.scene.loads:
+            if self._only_moves() and _pyelastica_motion.accepts(load):
+                continue
             if load.follower or load.kind not in ("force", "moment"):
                 raise Refused("loads: this driver has only dead forces and moments at the free end")
             if self.scene.nodes[str(load.node)].hold:
@@ -82,7 +96,7 @@ class Rod(Model):
 
         chain = [e.nodes[0] for e in self.mesh.elements] + [self.mesh.elements[-1].nodes[-1]]
         frames = [np.array(e.R, dtype=float) for e in self.mesh.elements]
-        if self.reversed:
+        if self.reversed and not self._only_moves():
             chain.reverse()
             frames = [f @ np.diag([-1.0, 1.0, -1.0]) for f in reversed(frames)]
         at = np.array([self.mesh.nodes[n].at for n in chain], dtype=float).T
@@ -120,6 +134,12 @@ class Rod(Model):
         return rod
 
     def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "motion":
+            if not self._only_moves():
+                raise Refused("analyses: this driver has motions only in scenes without other analyses")
+            self.rod = self._rod()
+            _pyelastica_motion.set_masses(self, self.rod)
+            return _pyelastica_motion.motion(self, analysis, self.holds)
         states = [self._equilibrium(self._loads(p)) for p in analysis.stations]
         return Answer(states=states, iterations=self.steps)
 
