@@ -108,6 +108,10 @@ static status add_motion(integrators *p, const integrators_group *g,
     TRY(set_motion(p, g, r, spacing, f));
     TRY(plan_extend(&p->sweep, &q->formulation, 1, f));
     r->series = p->sweep.seriess - 1;
+    series *one = &p->sweep.series[r->series];
+    fault why = {""};
+    if (one->missing[0] == '\0' && scene_validate(&at->scene, &why) != STATUS_OK)
+        snprintf(one->missing, sizeof one->missing, "%.*s", (int)sizeof one->missing - 1, why.text);
     return STATUS_OK;
 }
 

@@ -9,7 +9,7 @@ import unittest
 
 from cases.format.test.scene_case import SceneCase, values
 from harness.cli.test.plugin import EXAMPLES, PluginTest, compile_shared
-from harness.tools.kit.program import ProgramTest, TRUTHS
+from harness.tools.kit.program import ROOT, ProgramTest, TRUTHS
 
 
 PROCESS = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"
@@ -206,6 +206,13 @@ class MotionError(ProgramTest):
                 for one, other in zip(curve, got[name], strict=True):
                     with self.subTest(seed=seed, curve=name):
                         self.assertLess(abs(one - other), 1e-3*largest)
+
+    def test_unsupported_integrator(self):
+        """Integrators given by --integrator must reject what they reject in a scene."""
+        text = self.answered("motion", "--scene", ROOT / "cases" / "examples" / "servo.yaml", "-f", "collocation", "-n",
+                             "1", "--integrator", "conserving", "--step", "0.01").stdout
+        self.assertIn("(conserving): load motor has feedback, which supplies energy", " ".join(text.split()))
+        self.assertRegex(text, r"(?m)^  conserving +0.01 +- +- ")
 
     def test_at_rest(self):
         for how in ("", "integrator: alpha, ", "integrator: conserving, "):
