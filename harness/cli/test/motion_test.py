@@ -210,7 +210,7 @@ class MotionError(ProgramTest):
     def test_unsupported_integrator(self):
         """Integrators given by --integrator must reject what they reject in a scene."""
         text = self.answered("motion", "--scene", ROOT / "cases" / "examples" / "servo.yaml", "-f", "collocation", "-n",
-                             "1", "--integrator", "conserving", "--step", "0.01").stdout
+                             "1", "--integrator", "conserving", "--step", "0.01", code=1).stdout
         self.assertIn("(conserving): load motor has feedback, which supplies energy", " ".join(text.split()))
         self.assertRegex(text, r"(?m)^  conserving +0.01 +- +- ")
 
