@@ -135,7 +135,8 @@ static void turn_about_axes(const fields *f, scene_node *n)
     if (moving > 1) {
         document_mistake(
             f->b->mistakes, f->place, 0,
-            "axes: at most one rotation may be free or prescribed, or all three free; for other "
+            "in rotated axes, at most one rotation may be free or prescribed, or all three free; "
+            "for other "
             "combinations, write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
         return;
     }

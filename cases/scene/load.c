@@ -63,7 +63,8 @@ int scene_is_free(const scene *s, scene_words *owner_name)
     return 0;
 }
 
-/* Returns EA [N], or 0 if an axial force does not cause only a uniform elongation. */
+/* Returns EA [N]. Returns 0 if the section varies along the member, couples elongation with other
+ * strains, or has no constants. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;

@@ -5,11 +5,11 @@
  *
  * simo_vu_quoc.c has the same strains, but its forces follow from interpolated virtual rotations;
  * here they are the derivatives of the energy of the strains, at constant history.
- *
  * The history of an element contains the rotations of both nodes in the last accepted state, and
  * the rotation L and the curvature k at the point. With the increments p, q of the nodes,
  *   t = (p + q)/2, t' = (q - p)/l, R = exp(t~) L, strains l (R^T r' - (1, 0, 0)) and
- *   l^2 (k + L^T T(t) t') [m], where T(t) = 1 - (1 - cos t)/t^2 t~ + (t - sin t)/t^3 t~^2.
+ *   l^2 (k + L^T T(t) t') [m], where t~ v = t x v and, with a = |t|, T(t) = 1 - (1 - cos a)/a^2 t~
+ *   + (a - sin a)/a^3 t~^2.
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK incremental.c -o incremental.so
  *   beamwork element-test --element ./incremental.so */
 #include <math.h>

@@ -454,8 +454,9 @@ static void same_as_field(const test_element *s, check_result *one)
                              s->words);
 }
 
-/* Checks the declaration mass_of_field without warping, because the field of the twist with warping
- * may be approximate, and without shear that couples two directions, which a type may neglect. */
+/* Checks the declaration mass_of_field on an element without warping, because with warping the
+ * field of the twist may be approximate. If the section couples shear in y and z, the element has
+ * no shear either, because a type may neglect this coupling. */
 static void of_field(const test_element *s, check_result *one)
 {
     test_element_request what = s->made;

@@ -902,8 +902,8 @@ double release_advance(const model *, model_state *, int vertex, const double dx
 /* Computes the spatial axes of the rotations [turns x 3]. The axes of three rotations are the fixed
  * axes. */
 void release_turn_axes(const model *, const model_state *, int vertex, double b[3][3]);
-/* Computes the spatial directions of the displacements [slides x 3], and the vector from the node
- * to the end [m]. */
+/* Computes the spatial directions of the released displacements [slides x 3], and the displacement
+ * of the end relative to the body of its node [m], without the offset of the end. */
 void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
                         double apart[3]);
 

@@ -63,8 +63,8 @@ typedef struct factor_counts {
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
  * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
- * factored by KLU. A matrix with by_numbers is factored by KLU or as LDL^T of its upper
- * triangle. */
+ * factored by KLU. A matrix with by_numbers is factored as LDL^T, from its upper triangle,
+ * if its asymmetry is at most FACTOR_SYMMETRIC_WITHIN, and otherwise by KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* Like factor_alloc, for a matrix with the same pattern as `of`. A symmetric matrix uses the order
  * of `of`, which must outlive the new factor. */

@@ -91,7 +91,7 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
     const hid_t all = H5Gopen2(file, what->group, H5P_DEFAULT);
     if (all < 0)
         return fault_set(f, STATUS_FAULT,
-                         "%s: the file contains no %s; build it again ('make all')", path,
+                         "%s: the file has no group %s; build it again ('make all')", path,
                          what->group);
     const status outcome = read_cases(path, all, what->only, out, f);
     if (outcome == STATUS_OK)

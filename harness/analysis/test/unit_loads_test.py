@@ -1,4 +1,4 @@
-"""Compliances about loaded states compared with finite differences of paths with small loads."""
+"""Compliances about loaded states, compared with central differences of displacements under small additional loads."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest
