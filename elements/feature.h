@@ -1,4 +1,5 @@
-/* Features: the physics that scenes require, element types support and requests select. */
+/* Features: the physics that scenes require, element types support and requests select. Names of
+ * the features in files. */
 #ifndef BEAMWORK_FEATURE_H
 #define BEAMWORK_FEATURE_H
 
@@ -24,6 +25,7 @@ enum element_feature {
     FEATURE_END = 1 << 14
 };
 
+/* Name and summary of a feature bit. */
 typedef struct feature_row {
     unsigned bit;        /* element_feature */
     const char *name;    /* without a comma */
@@ -57,11 +59,13 @@ static inline const feature_row *feature_row_of(unsigned bit)
     return one;
 }
 
+/* Returns the name of a feature in files and results. */
 static inline const char *feature_name(unsigned bit)
 {
     return feature_row_of(bit)->name;
 }
 
+/* Returns the one-line summary of a feature. */
 static inline const char *feature_summary(unsigned bit)
 {
     return feature_row_of(bit)->summary;

@@ -48,6 +48,7 @@ typedef struct inertia_output {
                   terms only increase the number of iterations */
 } inertia_output;
 
+/* Outputs of `force`, which replaces the functions `strain` and `stress`. */
 typedef struct force_output {
     double *energy; /* [1] [J]. Not requested with a history */
     double
@@ -108,6 +109,7 @@ typedef struct line_output {
                     the exponential chart: d2(f . r)/dx2 for a force */
 } line_output;
 
+/* Outputs of `equations_many`: the condensed mixed equations of an element (N section 4). */
 typedef struct equations_output {
     double *J;               /* [strains x 7 nodes] de/dx */
     double *C;               /* [strains x strains] dsigma/de [N/m] */

@@ -14,6 +14,7 @@ extern "C" {
 
 enum { SECTION_MAX_POINTS = 32, SECTION_MAX_WALLS = 32 };
 
+/* Constants about the centroid and the principal axes, in SI units. */
 typedef struct section {
     double young;         /* Young's modulus E [Pa] */
     double shear_modulus; /* shear modulus G [Pa] */
@@ -52,6 +53,7 @@ typedef enum section_kind {
     SECTION_MATRICES
 } section_kind;
 
+/* Constants of SECTION_CONSTANTS that the scene sets to zero. */
 typedef enum section_zero {
     SECTION_ZERO_SHEAR = 1 << 0,    /* D or F */
     SECTION_ZERO_WARPING = 1 << 1,  /* Iw */
@@ -69,6 +71,7 @@ typedef enum section_zero {
     X(Iz)                                                                                          \
     X(It) X(Ip) X(Iw) X(ys) X(zs) X(Dy) X(Dz) X(Dw) X(Dyz) X(Dyw) X(Dzw) X(wagner_torque) X(beta)
 
+/* Section of a scene file, which section_compute converts to constants. */
 typedef struct section_spec {
     section_kind kind;
     unsigned zeros;                       /* SECTION_ZERO_... */
@@ -114,7 +117,9 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* Computes the constants. Returns STATUS_REFUSED with the cause if the description is invalid. */
+/* Computes the constants. Returns STATUS_REFUSED with the cause if dimensions are zero or negative,
+ * if there are too many cells, disconnected walls or unused points, if D is not positive definite,
+ * if G or E is not positive, or if a value is NaN. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by two row-major matrices. For the strains of the Simo-Reissner beam along the
@@ -150,13 +155,15 @@ void section_matrices_centre(const section *c, double centre[3]);
 /* Tapered members: the dimensions of the section change linearly from one description to another of
  * the same form.
  *
- * Every cross-section is that of a prismatic member with its centroid on the line of the member. */
+ * Every cross-section is that of a prismatic member with its centroid on the line of the member.
+ * Shear stresses due to the taper are neglected, as is usual in beam theory. */
 
 /* Checks that a taper between the two descriptions is possible. `ends` contains the constants of
  * both descriptions. Returns REFUSED if the descriptions have different forms, for example a
  * rectangle and walls, differently connected walls, or D in one description and F in the other.
  * Sections with warping are also rejected if the shear centre moves, walls leave their planes, or
- * closed cells differ. */
+ * closed cells differ. The sectorial coordinate of a fibre would then change along the member and
+ * couple warping with torsion, which prismatic elements cannot represent. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

@@ -7,6 +7,7 @@
 extern "C" {
 #endif
 
+/* An entry of a table. */
 typedef struct parameter_type {
     const char *name;    /* NULL ends the table */
     const char *unit;    /* unit in SI, "1" for a plain number, or "" for a choice */
@@ -16,9 +17,11 @@ typedef struct parameter_type {
     const char *summary; /* one line */
 } parameter_type;
 
-/* Largest number of consecutive tables. If there are fewer tables, NULL follows the last table. */
+/* Largest number of consecutive tables. Several tables allow common entries to be defined once. If
+ * there are fewer tables, NULL follows the last table. */
 enum { PARAMETER_PARTS = 5 };
 
+/* Returns the number of entries of all tables. */
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS]);
 /* Returns entry i of all tables, or NULL after the last entry. */
 const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PARTS], int i);

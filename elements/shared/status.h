@@ -21,6 +21,7 @@ typedef enum status {
 
 enum { FAULT_TEXT = 320 };
 
+/* Description of an error, for a user. */
 typedef struct fault {
     char text[FAULT_TEXT]; /* one line without a newline, terminated by '\0' */
 } fault;

@@ -159,6 +159,17 @@ static status check_form(const char *path, const file_place *to, output_form for
     return STATUS_OK;
 }
 
+static void discard(output *out)
+{
+    if (out->stream != NULL && out->stream != stdout)
+        fclose(out->stream);
+    out->stream = NULL;
+    if (out->temporary[0] != '\0') {
+        unlink(out->temporary);
+        output_unregister(out->temporary);
+    }
+}
+
 static status open_as(const char *path, output_form form, output *out, fault *f)
 {
     memset(out, 0, sizeof *out);
@@ -168,8 +179,14 @@ static status open_as(const char *path, output_form form, output *out, fault *f)
     const int file =
         direct ? open_stream(&out->to) : output_beside(out->to.path, make_file, out->temporary);
     out->stream = file >= 0 ? fdopen(file, "w") : NULL;
-    if (out->stream == NULL)
-        return place_unwritable(path, errno, f);
+    if (out->stream == NULL) {
+        const int why = errno;
+        if (file >= 0) {
+            close(file);
+            discard(out);
+        }
+        return place_unwritable(path, why, f);
+    }
     if (!direct)
         keep_permissions(&out->to, file);
     return STATUS_OK;
@@ -186,17 +203,6 @@ status output_open(const char *path, output *out, fault *f)
 status output_open_whole(const char *path, output *out, fault *f)
 {
     return open_as(path, OUTPUT_WHOLE_FILE, out, f);
-}
-
-static void discard(output *out)
-{
-    if (out->stream != NULL && out->stream != stdout)
-        fclose(out->stream);
-    out->stream = NULL;
-    if (out->temporary[0] != '\0') {
-        unlink(out->temporary);
-        output_unregister(out->temporary);
-    }
 }
 
 /* Writes the file to the disk. Returns 0 after an error. A file that cannot be synchronised, such
