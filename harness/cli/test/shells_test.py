@@ -159,7 +159,7 @@ class Completion(ProgramTest):
 
     def test_parameters(self):
         table = self.answered("list", "c_column").stdout.partition("parameters (")[2]
-        names = re.findall(r"^  (\w+)", table.partition("quantities (")[0], re.MULTILINE)
+        names = re.findall(r"^  (\w+)", table.partition("\nquantities ")[0], re.MULTILINE)
         self.assertEqual(self.offered("solve", "c_column", "--set", ""),
                          [f"{name}=" for name in names])
         self.assertEqual(self.offered("solve", "c_column", "-s", "section_data=pr"),

@@ -51,6 +51,8 @@ for file in harness/library/python/*.ipynb; do put 644 "$file" "$data/examples/p
 for file in $(find reports reference -name test -prune -o -name __pycache__ -prune -o -type f -print | sort) elements/*.md; do
     put 644 "$file" "$data/$file"
 done
+file=harness/library/python/beamwork/peers/_ranking.py # used by the report, also where the module is not installed
+put 644 "$file" "$data/$file"
 
 for page in "$build"/man/*.[0-9]; do put 644 "$page" "$SHAREDIR/man/man${page##*.}/${page##*/}"; done
 put 644 harness/cli/beamwork.bash "$SHAREDIR/bash-completion/completions/beamwork"
