@@ -38,6 +38,7 @@ def shapes(Phi):
 
 
 class Modes(unittest.TestCase):
+    """J Eqs. 7 and 13, and J Eq. 60."""
     l0 = 1.3
 
     def modes(self, r, Rp, Rq):
@@ -108,6 +109,7 @@ class Modes(unittest.TestCase):
 
 
 class Interpolation(unittest.TestCase):
+    """J Eqs. 38, 40a, App. A."""
     Phi = 0.7
 
     def test_torsion_functions(self):
@@ -147,6 +149,8 @@ class Interpolation(unittest.TestCase):
 
 
 class Modified(unittest.TestCase):
+    """J Eqs. 58 to 66."""
+
     def test_elongation_without_shear_and_eccentricity(self):
         rng = np.random.default_rng(7)
         e = rng.uniform(-1, 1, 9)  # e[1] .. e[8]
@@ -174,10 +178,11 @@ class Modified(unittest.TestCase):
         return integral(slope(w) ** 2) / 2
 
     def test_shear_and_eccentricity_are_missing(self):
+        """The coefficients 2, 1, 2 over 30 are those of beams that are rigid in shear."""
         e = {2: 0.0, 3: 0.8, 4: -0.5, 7: 0.0, 8: 0.0}
         printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30
         self.assertAlmostEqual(self.elongation(e, 0.0, 0.0), printed, delta=1e-9)
-        for Phi in (1.0, 100.0):
+        for Phi in (1.0, 100.0):  # Phi is proportional to 1/l0^2, so these are values of fine meshes
             Vt = (e[3] - e[4]) / (2 * (1 + Phi))
             Vs = (e[3] + e[4]) / 2
             self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2,
@@ -189,6 +194,7 @@ class Modified(unittest.TestCase):
         return (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2) / 30
 
     def test_eccentric_shear_centre(self):
+        """The exact integral has a closed form for any shear and twist. J Eq. 66 includes neither shear nor twist."""
         ys, e = 0.7, {2: 0.6, 3: 0.8, 4: -0.5, 7: 0.4, 8: -0.3}
         for Phi in (0.0, 2.0):
             tw = (e[2] - (e[7] + e[8]) / 2) / (1 + Phi)
@@ -202,6 +208,9 @@ class Modified(unittest.TestCase):
                     ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
+        """For uniform twist without shear, the elongation has no additional term if it is written in strains of the shear
+        centre. Written in the strains e of J, it has a product of twist and bending, which equals the printed square if
+        there is no bending."""
         ys, e2 = 0.7, 0.6
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)
@@ -215,8 +224,10 @@ class Modified(unittest.TestCase):
             self.assertEqual(abs(exact - printed) > 0.01, not alone)
 
     def test_twist_of_an_eccentric_beam(self):
+        """Without shear, e2bar - e2 of the corrected modes (second_order.py) is e4s e5s - e3s e6s, but it is printed with
+        e of J."""
         length, (ys, zs) = second_order.L, (Fraction(2, 7), Fraction(-5, 9))
-        e = [Fraction(k, 11) for k in (0, 3, -4, 7, 2, 5, 3, 3)]
+        e = [Fraction(k, 11) for k in (0, 3, -4, 7, 2, 5, 3, 3)]  # uniform twist
         shift = [0, 0, -ys, ys, -zs, zs, 0, 0]
         s = [a + b * e[1] / length for a, b in zip(e, shift)]
         hg = ((s[4] - s[5]) / (2 * length), (s[3] - s[2]) / (2 * length))
@@ -226,12 +237,16 @@ class Modified(unittest.TestCase):
         self.assertNotEqual(right, (e[3] * e[4] - e[2] * e[5]) / length)
 
     def test_table_1(self):
+        """D is indefinite with the printed D_w = 3.65e6 mm^4, and positive definite with 3.65e9 mm^4 and with the value
+        computed from the shear flow."""
         for Dw, good in ((3.65e6, False), (3.65e9, True)):
             self.assertEqual(1.58e4 * Dw - 3.7e6 ** 2 > 0, good)
         self.assertAlmostEqual(float((channel_data().F ** -1)[2, 2]) * 1e12, 3.6936533e9, delta=1e2)
 
 
 class ThirdOrder(unittest.TestCase):
+    """N Eqs. 11, 49, 50, App. B."""
+
     def test_torsion_moment(self):
         """Equilibrium of a slice gives M_x' = kz M_y - ky M_z, here u_y'' M_y."""
         p, q, zp, zq = 0.7, -0.4, 0.3, 0.9
@@ -244,6 +259,8 @@ class ThirdOrder(unittest.TestCase):
             self.assertEqual(np.max(np.abs(slope(Mx) - ddu(X) * My(X))) < 1e-9, holds)
 
     def test_bimoment_of_appendix_b(self):
+        """The polynomial part of the bimoment satisfies lambda^2 b - b'' = L f with the printed sign of u_y only after
+        division by lambda^4."""
         f = lambda x: 12 * x ** 2 - 18 * x + 6  # noqa: E731
         for rate in (0.5, 4.0):
             b = lambda x: 24 + rate ** 2 * (6 - 18 * x + 12 * x ** 2)  # noqa: E731, B023
@@ -255,7 +272,7 @@ class ThirdOrder(unittest.TestCase):
         """Along a plane arc with total rotation psi, N Eq. 37 gives an elongation, but N Eq. 52 contains no initial
         elongation."""
         for psi in (0.05, 0.2, math.pi / 4):
-            u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2
+            u, zp, zq = 2 * math.sin(psi / 2) / psi - 1, -psi / 2, psi / 2  # divided by L
             elongation = u + (2 * zp ** 2 - zp * zq + 2 * zq ** 2) / 30
             self.assertAlmostEqual(elongation / (psi ** 4 / 1920), 1, delta=psi ** 2 / 100)
         self.assertAlmostEqual(elongation, 2.0e-4, delta=0.05e-4)
