@@ -50,6 +50,10 @@ def record(*all_series):
 @unittest.skipIf(bw is None, "needs a library without sanitizers")
 class Ranking(unittest.TestCase):
 
+    def test_no_quantity(self):
+        empty = {**record(series("a", [run(1, 1e-3, 1.0)], True)), "quantities": []}
+        self.assertIn("no quantity is ranked", tables.text(empty))
+
     def ranked(self, level, *all_series):
         given = record(*all_series)
         return ranking.rank(given, given["quantities"][0], level)

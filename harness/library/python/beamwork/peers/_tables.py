@@ -58,6 +58,7 @@ def text(record: Mapping[str, Any]) -> str:
         lines += [_row(row, unit) for row in ranked["rows"] if row not in more]
         lines += [f"  and {len(more)} of beamwork: {', '.join(row['name'] for row in more)}"] if more else []
         lines += [f"  not reached by {name}: {why}" for name, why in ranked["others"] if name not in silent]
+    lines += [] if shown else ["", "no quantity is ranked: none has a reference value or an agreed limit other than zero"]
     return "\n".join(textwrap.fill(line, 130, subsequent_indent="    ") if len(line) > 130 else line for line in lines) + "\n"
 
 
