@@ -315,7 +315,8 @@ void write_values_key(writer *w, const char *key);
 /* Writes a list of words in brackets, one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 
-/* Write at least six digits, and as many as are necessary to reproduce the number. */
+/* Write the smallest number of digits, from six on, that reproduces the number; trailing zeros are
+ * omitted. */
 void write_values_number(writer *w, double value);
 void write_values_numbers(writer *w, int count, const double value[]);
 /* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */

@@ -16,7 +16,7 @@ ROW("warping", ENTRY_FORMS,
         "fixed if all six components of the node are fixed or driven, if the node belongs to a "
         "rigid body, or if a member has an offset at the node; shared if two members with the same "
         "section continue in one line; free otherwise, and if a rotation is released")
-/* curvatures about local y and z; interior nodes are on the arc */
+/* twist, and curvatures about local y and z; interior nodes are on the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
 /* stress-free strains, for example due to temperature or misfit */

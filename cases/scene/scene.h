@@ -8,7 +8,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-/* Analyses. Every scene_add_* returns the index of the new analysis, or -1 if out of memory. */
+/* Analyses. */
 
 typedef struct scene scene;
 
@@ -191,10 +191,10 @@ int scene_add_motion(scene *s, int follows, int stations, const double path[], s
 scene_alpha scene_alpha_of_radius(double rho);
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* Returns the time [s] of the motion about which the analysis is made, or NAN if it is not about a
- * motion. */
+/* Returns the time [s] of the motion about which a modal or harmonic analysis is made, or NAN for
+ * every other analysis. */
 double scene_instant_of(const scene *, int analysis);
-/* Returns the start [s] of a motion: 0, or the end of the motion that it continues. */
+/* Returns the time [s] at which a motion starts: 0, or the end of the motion that it continues. */
 double scene_motion_begin(const scene *, int analysis);
 
 /* Returns the key of an analysis in a scene file, such as "linear" or "static". */
@@ -258,8 +258,7 @@ typedef struct formula formula;
 
 /* Parses a function. Returns REFUSED if the text is invalid, or FAULT if out of memory. */
 status formula_parse(const char *text, formula **out, expression_mistake *);
-/* Parses a function. Returns REFUSED if the text is invalid; f then contains the error and its
- * position (from 1). */
+/* Like formula_parse, but writes the error to f, with the text and the position (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
 /* Computes the value and the first two derivatives with respect to t. Undefined values are not
@@ -281,23 +280,26 @@ typedef struct scene_function {
     double scale;       /* factor of the value; 0 means 1 */
 } scene_function;
 
-/* Appends a piece and copies the text. Returns -1 if out of memory. */
+/* Appends a piece and copies the text, which may be invalid (function_check). Returns -1 if out of
+ * memory. */
 int function_add(scene_function *, double until, const char *text);
 /* Copies the pieces and the scale of another function to `to`, which must be empty. Returns -1 if
  * out of memory. */
 int function_copy(scene_function *to, const scene_function *from);
 void function_free(scene_function *);
-/* Checks the pieces. Returns REFUSED with the error in f. */
+/* Returns REFUSED with the error in f if a text is invalid or the ends of the pieces do not ascend,
+ * or FAULT if out of memory. */
 status function_check(const scene_function *, fault *);
 /* Computes the value and the first two derivatives at t. At the boundary of two pieces, the values
  * are those of the second piece. */
 void function_at(const scene_function *, double t, double out[3]);
 /* Returns 1 if the function and this number of its derivatives (0 to 2) are finite from 0 to `end`.
  * Otherwise returns 0 and sets *time to a time at which a value is not finite. The values are
- * checked at both ends of all pieces and at 63 times inside each piece. */
+ * checked at both ends of every piece up to `end`, and at 63 times inside the piece. */
 int function_finite(const scene_function *, double end, int derivatives, double *time);
-/* Returns 1 if value and velocity are continuous between pieces before `end`. Otherwise returns 0
- * and sets *time to the discontinuity, and *derivative to 0 for the value or 1 for the velocity. */
+/* Returns 1 if the value and its first derivative are continuous at every boundary of pieces
+ * between 0 and `end`, to within 1e-9. Otherwise returns 0 and sets *time to the discontinuity, and
+ * *derivative to 0 for the value or 1 for the derivative. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
 /* Quantities of an analysis. For each kind, a function below returns its data; it aborts if the
@@ -459,7 +461,8 @@ typedef struct scene_stress {
     int member;
     scene_stress_measure measure;
     int whole;
-    double place; /* ... as a fraction of the initial length, 0 at p to 1 at q */
+    double place; /* for a single cross-section: its position as a fraction of the initial length, 0
+                     at p to 1 at q */
     int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_stress;
 
@@ -627,12 +630,13 @@ typedef enum scene_envelope {
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
-    scene_acting acting; /* the load case or combination, if a linear analysis solves all of them;
-                            otherwise ... */
+    scene_acting acting; /* the load case or combination of the value, if a linear analysis solves
+                            all of them */
     scene_envelope envelope;
     int overs;
-    int *over; /* ... [overs] combinations of the envelope. overs 0: all combinations, or all load
-                  cases if there are no combinations. For SCENE_ENVELOPE_OF: the quantities */
+    int *over; /* [overs] combinations of the envelope. overs 0: all combinations, or all load cases
+                  if there are no combinations. For SCENE_ENVELOPE_OF: the quantities of the
+                  envelope */
     scene_extract what;
     scene_reduction reduction;
     scene_transform transform;
@@ -664,13 +668,14 @@ int scene_abscissa_of(const scene *s, const scene_quantity *q);
 void scene_set_at(scene_quantity *q, double at);
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
 /* Sets *first to the index of the first station of a spectrum and *count to the number of its
- * stations. Returns REFUSED if the stations are not evenly spaced. */
+ * stations. Only stations in the time window of the quantity count. Returns REFUSED if there are
+ * fewer than three, or if they are not evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
 /* Returns 1 if the quantity is evaluated between the stations of a motion. */
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
-/* Returns 1 if the quantity is the largest extracted value, -1 if it is the smallest, otherwise
- * 0. */
+/* For an extreme: returns -1 if the smallest extracted value is reported, and 1 if the largest is.
+ * A negative factor exchanges the two, except for the time of an extreme. */
 int scene_extreme_sign(const scene_quantity *q);
 
 const scene_component *scene_component_of(const scene_quantity *q);
@@ -700,7 +705,8 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
  * quantities. The functions of this header use no solver and no formulation.
  *
  * Every scene_* function that adds an entry returns the index of the entry in its list, or -1 if
- * out of memory (scene_validate reports this once, at the end). */
+ * out of memory (scene_validate reports this once, at the end). Only scene_add_quantity returns the
+ * entry. */
 
 enum { SCENE_MESHES = 24 };
 
@@ -757,9 +763,9 @@ typedef struct scene_node {
 
 /* Released components of a member end, which the end does not transmit to its node. Rotations are
  * in the order of their axes. The components are in the axes of the member at this end (y as in
- * scene_member). With r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1)
- * exp(a_2 t_2) rotates by the angles t about the axes a, and s are the released translations. Three
- * rotations are a ball joint. */
+ * scene_member). With the position r and the rotation R of the node and the offset o of the end,
+ * the end is at r + R o + R_end s, where R_end = R exp(a_1 t_1) exp(a_2 t_2) rotates by the angles
+ * t about the axes a, and s are the released translations. Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count; /* number of released components, or 0 if the end is rigidly joined */
@@ -851,7 +857,7 @@ typedef struct scene_driver {
                     */
 } scene_driver;
 
-/* Returns 1 if the driver prescribes a rotation. */
+/* Returns 0 if the driver prescribes a translation of a node, otherwise 1. */
 int scene_driver_turns(const scene *, int driver);
 
 typedef enum scene_load_kind {
@@ -990,7 +996,9 @@ int scene_add_attached(scene *s, int body, double x, double y,
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile is the section at both ends */
 /* Computes the stress-free elongation of a member of this length [m] from its pretension or its
- * unstressed length. Returns REFUSED if the elongation cannot be computed for the section. */
+ * unstressed length. Returns REFUSED if a pretension is given but an axial force causes other
+ * strains than elongation or the section varies along the member, or if the unstressed length
+ * differs from `length` by more than 1 % and no node is shifted by an imperfection. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
  * curvature. Writes the name of the load or member to `owner_name`, which may be NULL. */
@@ -1007,7 +1015,7 @@ int scene_is_founded(const scene_member *m);
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[]);
 /* Returns the value of a table at x and sets *slope to the slope at x. At a point of the table, the
- * slope is that of the next segment. */
+ * slope is that of the next segment, if there is one. A table without points gives 0. */
 double scene_table_at(const scene_table *, double x, double *slope);
 /* Returns the integral of the table from `from` to `to`. */
 double scene_table_work(const scene_table *, double from, double to);
@@ -1019,8 +1027,8 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
  * the first node. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
-/* Adds a diaphragm, to which scene_constrain adds nodes. Their rotations become a sequence: about
- * the normal, then about the two other axes. */
+/* Adds a diaphragm, to which scene_constrain adds nodes. Spatial rotations of these nodes become a
+ * sequence: about the normal, then about the two other axes unless both are fixed. */
 int scene_add_diaphragm(scene *s, int master, int normal);
 
 /* Adds an imperfection, whose mode or shifts the caller adds. */
@@ -1072,7 +1080,7 @@ const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
 /* Returns 1 if the feedback of the load is included in this harmonic or modal analysis. */
 int scene_closes_loop(const scene *s, int analysis, int load);
-/* Returns 1 if the load is not zero on its whole range. */
+/* Returns 0 if the load is zero on its whole range, otherwise 1. */
 int scene_load_acts(const scene_load *load);
 /* Returns 1 if the load can make a tangent unsymmetric. */
 int scene_load_unsymmetric(const scene_load *load);
@@ -1080,8 +1088,9 @@ void scene_set_factor(scene *s, int load, int stations, const double path[], con
 int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
 void scene_add_term(scene *s, int combination, int load_case, double factor);
-/* Returns the number of the load case or combination that acts in the analysis or in the analysis
- * that it follows. Returns 0 if the scene has no load cases, if the analysis solves all load cases
+/* Returns the number of the load case or combination that acts in the analysis or, if it follows
+ * another, in the first analysis of the chain. Combinations are numbered from 1, then load cases.
+ * Returns 0 if the scene has no load cases, if the analysis solves all load cases
  * (scene_solves_all), or if it is about the structure without loads. */
 int scene_acting_of(const scene *s, int analysis);
 /* Returns 1 for a linear analysis that solves every load case and combination. */
@@ -1089,7 +1098,8 @@ int scene_solves_all(const scene *s, int analysis);
 /* Returns the number of the i-th load case or combination of a quantity, starting at 0. Returns 0
  * after the last, or if all loads act. */
 int scene_acting_in(const scene *s, const scene_quantity *q, int i);
-/* Returns the factor of a load case while the load case or combination with this number acts. */
+/* Returns the factor of a load case while the load case or combination with this number acts. The
+ * factor is 1 for number 0 (all loads act) and for loads without a load case. */
 double scene_acting_factor(const scene *s, int number, int load_case);
 /* Returns text such as "combination ULS" or "case dead", or "" for 0. */
 scene_words scene_acting_called(const scene *s, int number);
@@ -1102,10 +1112,10 @@ void scene_hold_all(scene *s, int node);
 void scene_drive(scene *s, int node, int component,
                  int driver); /* component: a translation or a spatial rotation component */
 /* Computes the unit vectors along the support axes of the node, in columns. Returns 0 if the
- * support axes are those of the scene. */
+ * support axes are those of the scene, otherwise 1. */
 int scene_node_axes(const scene_node *n, double R[9]);
 /* Returns the coordinate of a component. For a rotation sequence, this is the angle about the axis
- * of the component. */
+ * of the component, if the sequence has this axis; otherwise the component itself. */
 int scene_node_coordinate(const scene_node *n, int component);
 /* Adds a fork support, whose guides on both sides of the web have the fixed normal n = web x axis.
  * The web remains between the guides: R web . n = 0, so R = exp(n t_1) exp(web t_2). For bending in
@@ -1152,18 +1162,20 @@ status scene_validate(const scene *s, fault *f);
  * parameter. */
 double along_path_factor(const scene_load *, double path);
 /* Returns the derivative of the factor with respect to the path parameter. At a station, the
- * derivative is that of the following interval. */
+ * derivative is that of the following interval; outside the stations, it is 0. */
 double along_path_rate(const scene_load *, double path);
-/* Returns the value of a known driver [m or rad]. */
+/* Returns the value [m or rad] of a driver that is given by stations, constant before the first and
+ * after the last. */
 double along_path_value(const scene_driver *, double path);
-/* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", or "" if loads change
- * on the whole path. */
+/* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", "; no load changes
+ * along the path ...", or "" if a load without stations or an unknown driver acts. `acting`: number
+ * of the load case or combination (scene_acting_of). */
 typedef struct along_path_words {
     char text[256];
 } along_path_words;
 along_path_words along_path_end(const scene *, int acting);
-/* Returns REFUSED if a load or driver varies nonlinearly between the path parameters 0 and 1.
- */
+/* Returns REFUSED if an active load or driver varies nonlinearly between the path parameters 0 and
+ * 1. */
 status along_path_proportional(const scene *, int acting, fault *);
 
 typedef enum scene_edit_kind {
@@ -1368,8 +1380,8 @@ extern const scene_input scene_inputs[];
 extern const char *const scene_column_name[SCENE_COLUMNS];
 
 scene_column scene_column_of(const scene *, int analysis);
-/* Returns 1 if the tangent of the state may be unsymmetric, so that stability depends on the
- * masses. */
+/* Returns 1 if the analysis is about the state of another analysis whose tangent may be
+ * unsymmetric, so that stability depends on the masses. */
 int scene_inputs_flutter(const scene *, int analysis);
 /* Returns REFUSED if the analysis rejects an entry of the scene. */
 status scene_inputs_check(const scene *, int analysis, fault *);
@@ -1573,19 +1585,20 @@ status scene_change_unit(scene *s, double x, fault *f);
  * seconds do not change. Quantities are reported in their former units. */
 void scene_change_force(scene *s, double y);
 /* Returns 1 if the numbers suggest units other than SI, and writes these units and the reason.
- * Otherwise returns 0. Dimensionless scenes are not checked. */
+ * Otherwise returns 0. Sections given by matrices are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
 /* Sets the warping condition of every end that has SCENE_WARP_BY_SUPPORT.
  *
- * Warping is restrained if all six components of the node are fixed or prescribed, or if the node
- * is part of a rigid body to which members or springs are joined at other nodes.
+ * Warping is restrained if all six components of the node are fixed or prescribed, if a member is
+ * joined to the node with an offset, or if the node is part of a rigid body to which members or
+ * springs are joined at other nodes.
  *
- * If exactly two members meet at a node that has a fork support or no supports, and continue in one
- * line with the same section and axes, both ends share the warping coordinate. This rule does not
- * apply to released ends. */
+ * If exactly two members meet at any other node and continue in one line with the same section and
+ * axes, both ends share the warping coordinate, unless one of them is released. All other ends are
+ * free to warp. */
 void scene_warping_by_supports(scene *s);
 
 #endif

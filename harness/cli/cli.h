@@ -200,7 +200,7 @@ typedef struct case_options {
     const char *name;                      /* name of the case; NULL: none */
     const char *scene_path;                /* file of --scene, which is used instead of a name */
     text_list set;                         /* NAME=VALUE */
-    double parameter[CASE_MAX_PARAMETERS]; /* ... set by case_input_find */
+    double parameter[CASE_MAX_PARAMETERS]; /* values of the parameters, set by case_input_find */
     scene_file *scene;                     /* contents of scene_path */
     int refusal;                           /* exit status after an error */
     command_line *line;

@@ -20,7 +20,7 @@ status cells_write(FILE *to, const sweep *s, int series, digest *content, fault 
 status cells_read(FILE *from, sweep *s, int series, fault *f);
 /* Resets the series to its planned state, without results. */
 void cells_free_results(series *one);
-/* Removes the series for which keep[seriess] is not 1; their cells count as unfinished. */
+/* Removes the series i for which keep[i] is 0; their cells count as unfinished. */
 void cells_keep(sweep *s, const char keep[]);
 
 /* bench --against: times two cells that run alternately. The second cell has another formulation or

@@ -30,8 +30,8 @@ typedef struct against_times {
     double a, b; /* [s] shortest laps of a and of b */
     /* median of b/a over the pairs, and its distribution-free 99.9 % confidence interval */
     double ratio, low, high;
-    /* result for b relative to a; ratios within 2 % of 1 are undecided, because differences in code
-     * layout can have this effect */
+    /* result for b relative to a; undecided if the interval contains a ratio within 2 % of 1,
+     * because differences in code layout can have this effect */
     against_outcome outcome;
 } against_times;
 
@@ -109,9 +109,11 @@ typedef struct element_measure {
     double error[MEASURE_POINTS]; /* errors relative to the exact value; NAN: no value */
     double order;       /* observed order of convergence; NAN: not requested, or not observed */
     int least, highest; /* lowest and highest order that the type declares; 0: not requested */
-    /* 1: shear or membrane locking (the errors increase as the element becomes thinner) */
+    /* 1: shear or membrane locking (the error of the thinnest element exceeds 0.01 plus ten times
+     * that of the thickest) */
     int locks;
-    /* 1: wrong limit (in a linear state, four elements do not halve the error of one) */
+    /* 1: wrong limit (in a linear state, the error of four elements exceeds 1e-6 and half of that
+     * of one) */
     int wrong_limit;
     char words[MEASURE_WORDS]; /* reason why there are no values, or a conclusion */
 } element_measure;
@@ -265,8 +267,9 @@ typedef struct test_element {
     char words[TEST_ELEMENT_WORDS];  /* text for messages: "" or ", with option=value, section" */
 } test_element;
 
-/* Returns the status of the type's functions, for example STATUS_REFUSED. Call test_element_free
- * after a failure as well. */
+/* Makes an element of the type. REFUSED: the type rejects the section, the features or the options.
+ * FAULT: a function of the type failed, the type declares more than the limits above, or out of
+ * memory. Call test_element_free after a failure as well. */
 status test_element_make(const test_element_request *, test_element *out, fault *f);
 void test_element_free(test_element *s);
 /* Returns 1 if the type computes forces with a history, which need not derive from an energy. */
@@ -447,8 +450,8 @@ typedef struct extreme_sweep {
     extreme_count *count; /* [formulations] */
 } extreme_sweep;
 
-/* Returns the exit status: 0 if all outcomes are as expected, 1 if an outcome differs, 3 if
- * nothing was run. */
+/* Returns the exit status: 0 if all outcomes are as expected, 1 if an outcome differs or a known
+ * deviation is not observed, 3 if nothing was run. */
 int extreme_sweep_exit(const extreme_sweep *s);
 void extreme_sweep_free(extreme_sweep *s);
 
@@ -503,8 +506,8 @@ typedef struct integrators_run {
      * rotations in rad */
     double error;
     double *values; /* [quantities] relative errors; owned by this structure */
-    double
-        order; /* observed order, from this run and the run with twice the step size; NAN: none */
+    double order; /* observed order, from the errors of this run and of the previous run, whose step
+                     is larger; NAN: none */
     double cost, seconds, iterations; /* [s] cost of the counted work, and measured time;
                                          iterations: number per step */
     long steps, rejected;
@@ -542,7 +545,7 @@ typedef struct integrators {
 
 /* Verdicts on integrators, compared with a table of expected verdicts (expected.csv):
  *
- *   order pass, low order or undecided, from errors at halved steps (experiments_impl.h)
+ *   order pass, low order or undecided, from errors at decreasing steps (experiments_impl.h)
  *   energy conserved, "order P" of the energy-balance error at halved steps, or drifts
  *   momentum conserved, "order P" of the momentum error at halved steps, or drifts
  *   tolerance decimal logarithm of error/tolerance for each tolerance, compared within
@@ -961,8 +964,8 @@ typedef struct restart {
     outcome_end *end;
 } restart;
 
-/* Checks before the solution that final states can be stored. REFUSED: the scene has no motion
- * whose final state can be stored. */
+/* Checks before the solution that final states can be stored. REFUSED: the scene has no motion, or
+ * a load has integral feedback, whose integral is not stored. */
 status restart_possible(const scene *, fault *);
 /* Writes the final states of the solved motions to a file, with their scene, formulation and
  * mesh. The file has a temporary name until it is complete. */

@@ -90,7 +90,8 @@ int checks_compared(const check_results *c);
 
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
-/* Returns the features for a straight element: all features of the type, except `without`. */
+/* Returns all features that the type supports, except curvature, coupled stiffness and
+ * `without`. */
 unsigned test_element_features(const element_type *t, unsigned without);
 
 /* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
@@ -374,17 +375,19 @@ double integrators_distance(const cell_result *, const cell_result *other, int a
 double integrators_distance_of(const scene_quantity *, const quantity_result *,
                                const quantity_result *other);
 
-/* For a completed run, computes the energy-balance error, the largest change of momentum, E/E0 and
- * the classification. E: energy; E0: energy after the loads have ended. */
+/* Computes the energy-balance error, the largest change of momentum, E/E0 and the classification of
+ * a run. E: energy; E0: energy after the loads have ended. NAN: there is no such value, for example
+ * because loads act until the end. */
 void integrators_drift(const integrators *, integrators_run *);
 
 status integrators_evaluate(integrators *, const sweep_request *, fault *);
 
-/* Observed orders of an integrator, from runs with repeatedly halved steps. */
+/* Observed orders of an integrator, from runs with decreasing steps. */
 
 typedef enum integrators_order_kind {
     INTEGRATORS_ORDER_PASS,
-    INTEGRATORS_ORDER_LOW, /* below the nominal order by more than integrators_order_slack */
+    INTEGRATORS_ORDER_LOW, /* both orders are below the nominal order by more than
+                              integrators_order_slack */
     /* fewer than three errors are above the floor, or only one of two orders is low */
     INTEGRATORS_ORDER_UNDECIDED,
     INTEGRATORS_ORDER_KINDS
@@ -406,12 +409,14 @@ typedef struct integrators_ladder {
  * (harness/study). */
 extern const double integrators_order_slack;
 
-/* Returns 1 if unresolved frequencies limit the order of the reference. */
+/* Returns 1 if the observed order of the reference is below the order of radau minus 1, as it is if
+ * frequencies are unresolved. */
 int integrators_order_is_stopped(const integrators_group *);
 
 /* Returns the runs of the integrator whose first run has number `first`. */
 integrators_ladder integrators_order_of(const integrators *, int first);
-/* Returns 1 if the relative error of a quantity does not decrease with the step size. */
+/* Returns 1 if the relative error of a quantity remains above 1e-3 and the floor, and is not halved
+ * although the smallest step is a quarter of the largest. */
 int integrators_order_stagnates(const integrators *, const integrators_ladder *, int quantity);
 /* Sets the order of each run that has a previous run with a larger step, from the errors of these
  * two runs. */
@@ -484,9 +489,10 @@ void ranges_table_known(FILE *to, const tally *t);
  * writes another map for each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
-/* Reference of a quantity at a point: a stored reference value, a reference value computed by a
- * program of reference/derive, or a limit of the meshes of a formulation with the same physics. Of
- * these limits, the one with the smallest uncertainty is used. */
+/* Reference of a quantity at a point: the first that is known to within half the tolerance of a
+ * stored reference value, a reference value computed by a program of reference/derive, and a limit
+ * of the meshes of a formulation with the same physics. Of these limits, the one with the smallest
+ * uncertainty is used. */
 
 typedef struct point_reference {
     rows_reference kind;

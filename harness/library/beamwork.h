@@ -1,12 +1,12 @@
 /* beamwork.h: scenes, solutions and verdicts from your own program.
  *
  * Handles are opaque and documents are text: the interface has no structs. Units are SI, texts are
- * UTF-8. A function that can fail returns a bw_status. After a failure, *why is one line
- * that names the cause and, where there is one, the remedy; `why` may be NULL if the text is not
- * needed. For a scene with errors, *why is a JSON list of all errors, with file, line and column.
- * *why is NULL after BW_OK. The caller frees texts returned as char ** with bw_free_text; texts
- * returned as const char * belong to the handle. After a failure, the result is NULL. A required
- * handle or name that is NULL is rejected.
+ * UTF-8. A function that can fail returns a bw_status. After a failure, *why is one line that names
+ * the cause and, where there is one, the remedy; `why` may be NULL if the text is not needed. For a
+ * scene with errors, *why is a JSON list of all errors, with file, line and column. *why is NULL
+ * after BW_OK. The caller frees texts returned as char ** with bw_free_text; texts returned as
+ * const char * belong to the handle. After a failure, the result is NULL (exception: bw_solve). A
+ * required handle or name that is NULL is rejected.
  *
  * The library prints nothing and does not end the program. It does not change signal handlers, the
  * locale, the rounding mode or the handlers of GSL and HDF5, and the host's settings of these do
@@ -109,8 +109,8 @@ BW_API const char *bw_result_name(const bw_result *result, int quantity);
 BW_API const char *bw_result_unit(const bw_result *result, int quantity);
 /* Returns the value in the unit of the quantity; NaN: there is no value, or no such quantity. */
 BW_API double bw_result_value(const bw_result *result, const char *quantity);
-/* Returns (value - reference)/|reference|, which `beamwork solve` also prints; NaN: there is no
- * reference value. */
+/* Returns (value - reference)/s, which `beamwork solve` also prints; s is |reference| or, if it is
+ * larger, the key near_zero of the quantity. NaN: there is no value, or no reference value. */
 BW_API double bw_result_error(const bw_result *result, const char *quantity);
 /* Returns the position of the value on the path. For a motion: the time [s] of an extremum, or of a
  * value at an instant; for other paths: the path parameter; NaN: none, or no value. */
@@ -131,7 +131,8 @@ BW_API size_t bw_result_motion(bw_result *result, const char *column, const doub
 /* Returns the requested shapes. *points: number of points of all centre lines. *position [states x
  * points x 3] [m]. Returns the number of states. The first state is undeformed. */
 BW_API size_t bw_result_shapes(bw_result *result, size_t *points, const double **position);
-/* Returns the number of members. *first [members + 1]: index of the first point of each member. */
+/* Returns the number of members; 0: no shapes were requested. *first [members + 1]: index of the
+ * first point of each member. */
 BW_API size_t bw_result_members(const bw_result *result, const int **first);
 /* Returns the kind of a state: "path", "buckling", "motion", ...; NULL: there is no such state. */
 BW_API const char *bw_result_shape_kind(const bw_result *result, size_t state);

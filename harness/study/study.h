@@ -150,7 +150,8 @@ typedef struct omission {
     /* 1: no value changes, because these physics have no effect in the sections or in the
      * analyses */
     int exact;
-    double change;             /* upper bound of the relative change of values; NAN: unknown */
+    double change; /* upper bound of the relative change of values; NAN: unknown; INFINITY: a value
+                      changes from zero, or the path of an analysis changes */
     char quantity[SCENE_NAME]; /* quantity with the largest change; empty: none */
     char why[FAULT_TEXT];      /* reason why the bound is unknown */
 } omission;
@@ -388,8 +389,7 @@ typedef struct verdict {
     const truth *contradicted;
     mesh_limit fit;
     double finest;
-    /* (limit - truth)/truth or, if the reference value is almost zero, relative to near_zero; NAN:
-     * none */
+    /* (limit - truth)/max(|truth|, near_zero); NAN: none */
     double error;
     /* relative difference between the limit and the derived limit or, if no limit was derived, the
      * reference value */
@@ -411,9 +411,9 @@ typedef struct verdict {
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
-/* verdict_meshes returns the number of meshes up to the finest mesh that has a value of the
- * quantity. Results of another program may have the quantity on fewer meshes. verdict_limit returns
- * the limit without the `left_out` finest meshes. */
+/* verdict_meshes returns the number of meshes of a series. For results of another program, meshes
+ * after the last one with a value of the quantity do not count. verdict_limit returns the limit
+ * without the `left_out` finest meshes. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* Returns the reference value for a formulation: of the same model, and of the shear theory of the
@@ -427,7 +427,7 @@ const truth *verdict_reference(const truths *t, const sweep_point *p, const form
 /* Evaluates the quantity and the series of v. Sets the verdict, its limit and its errors. Sets
  * `matches` if the verdict is expected without a known deviation. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
-/* Returns the relative error of a value of a quantity with respect to a reference value. */
+/* Returns (value - reference)/max(|reference|, near_zero), or the difference if both are zero. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 
 /* A value on a mesh, compared with the discrete value stored for this mesh. */
@@ -583,9 +583,9 @@ int columns_length(hid_t group, const char *column);
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
 
 /* Returns the largest difference over the common points, relative to the largest magnitude of the
- * second curve. NAN: there are no common points, or a curve does not reach the end. at: point with
- * the largest difference (may be NULL). Points of a path with given stations are matched by number,
- * other points by abscissa. */
+ * second curve. NAN: there are no common points, a curve does not reach the end, or the numbers of
+ * points of paths with given stations differ. at: point with the largest difference (may be NULL).
+ * Points of a path with given stations are matched by number, other points by abscissa. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
                            const solve_result *two, int *at);
 /* Returns the index of the finest mesh of a series that has the whole curve; -1: none. */
@@ -1036,12 +1036,13 @@ int reach_ranking(const reach_question *q, reached out[]);
  * costs differ by less than the uncertainty of the cost coefficients. 1: the first formulation has
  * the lowest cost. 0: no formulation has both a cost and no defect. */
 int reach_ties(const reached list[], int count);
-/* Returns 1 if every quantity of the series has a reference value for the shear theory of the
- * formulation, 0 if some quantity has none, and -1 if the series does not run. */
+/* Returns 1 if every quantity of the question has a reference value for the series, and 0 if one
+ * has none. Returns -1 if the series is of another point or another program, does not run, or
+ * solves another model. */
 int reach_has_references(const reach_question *q, int series_index);
-/* Returns the verdicts on every series and quantity of a sweep without an evaluation. Quantities
- * without a reference value use the cross-formulation agreement. The caller frees the array; NULL:
- * out of memory. */
+/* Returns the verdicts on every series and quantity, except curves, of a sweep without an
+ * evaluation. Quantities without a reference value use the cross-formulation agreement. The caller
+ * frees the array; NULL: out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
 enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* largest number of digits */ };
@@ -1108,8 +1109,9 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
 enum { SENTENCE_OF_RUN = 1000 };
 
 /* Writes a summary of the run in one sentence, which starts with PASS, FAIL, INTERRUPTED (after an
- * interruption) or INCOMPLETE (if batches are missing). It lists expected verdicts other than pass.
- * The text is empty if nothing was evaluated. */
+ * interruption) or INCOMPLETE (if batches are missing). It lists the failures or, if there are
+ * none, the expected verdicts other than pass. The text is empty if nothing was evaluated and
+ * nothing failed. */
 void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t size);
 
 int serialise_write(FILE *to, const cell_result *cell); /* Returns 0, or -1. */

@@ -160,7 +160,8 @@ void workload_keep_whole(workload *);
 /* Counts the items of cost of a cell of the scene. steps: number of load steps between stations; 0:
  * as in the scene. */
 void run_cost_count(const scene *s, int steps, double times[RUN_COST_KINDS]);
-/* Orders all cells of a sweep: tasks[sweep_cells]. Returns 0, or -1 if out of memory. */
+/* Orders all cells of a sweep: tasks[sweep_cells]. Expensive series come first, by decreasing cost,
+ * and in each series the finest mesh. Returns 0, or -1 if out of memory. */
 int run_cost_order(const sweep *s, int jobs, workload_task tasks[]);
 
 /* Cross-formulation agreement, for structures without a reference value: the limit on which
