@@ -28,7 +28,8 @@ static void rotate(const double q[4], double v[3])
     rotation_apply(q, before, v);
 }
 
-/* Moves the nodes by increment[nodes x 6]. */
+/* Moves the nodes by increment[nodes x 6], and rotates bodies, offsets of members and places of
+ * loads with them. */
 static void move_nodes(const double increment[], model_imperfect *p)
 {
     scene *s = &p->own;

@@ -212,7 +212,8 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     return turns_of_node(s, node)[component - SCENE_RX];
 }
 
-/* R^T (r - r_from) - (r - r_from)_0 = R^T (u - u_from) - (1 - R^T) (r - r_from)_0 */
+/* Returns a component of R^T (r - r_from) - (r - r_from)_0 with the rotation R of `from`, or of the
+ * relative rotation vector. */
 double kinematics_relative(const model *m, const model_state *s, int from, int node, int component)
 {
     double back[4], q[4], t[3], apart[3], first[3], turned[3];
@@ -253,7 +254,8 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Returns the cosine of half the angle between the ends of an element. */
+/* Returns the cosine of half the angle between the ends of an element. chords 1: or, if it is
+ * smaller, that of the larger angle between the chord and the x axis of an end. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;

@@ -21,9 +21,9 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
-/* Fixes the rotation of a node about an idle axis. If the node has one free angle, this angle is
- * fixed. Otherwise the rotation is restricted to two axes perpendicular to the idle axis, which
- * rotates with the last of the two angles. */
+/* Fixes the rotation of a node about an idle axis (scene_idle_turn). If all rotations are idle, or
+ * if not all three are free, the free angles are fixed. Otherwise the rotation is restricted to two
+ * axes perpendicular to the idle axis, which rotates with the last of the two angles. */
 static void hold_idle(const scene *s, int node, mesh_vertex *v)
 {
     double axis[3], across[2][3];
@@ -341,8 +341,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
     return kind_of(m, &own, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
-/* Returns the warping amplitude of the end of a member: an amplitude shared by name, a separate
- * amplitude, or none. */
+/* Returns the warping amplitude of the end of a member: an amplitude shared by name, or a separate
+ * amplitude; NONE: held at zero. */
 static int end_warp(model *m, int name, int *named)
 {
     if (name == SCENE_WARP_FIXED)

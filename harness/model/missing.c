@@ -147,8 +147,8 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Names the strains that the scene changes but that a type with nodal forces does not have. Returns
- * 0 if there are none. */
+/* Names the stress-free strains of the scene if the type computes nodal forces, not strains.
+ * Returns 0 if there are none. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words owner_name;

@@ -9,7 +9,8 @@
 #include "elements/shared/masses.h"
 #include "harness/formulations/formulations.h"
 
-/* Returns 1 if the type computes the nodal forces of loads along members. */
+/* Returns 1 if elements compute the nodal forces of loads along members: if the type can do so and
+ * has two nodes, and if the scene has such loads and no motion. */
 static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;

@@ -38,8 +38,8 @@ typedef struct model_request {
     unsigned omit;
 } model_request;
 
-/* Creates the model; model_left_out lists the physics that it omits. REFUSED: no problem remains
- * that can be solved; the message gives the reason. */
+/* Creates the model; model_left_out lists the physics that it omits. REFUSED: the scene cannot be
+ * solved with this formulation and this number of elements; the message gives the reason. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
@@ -120,9 +120,9 @@ void assemble_patterns_free(assemble_patterns *);
  * matrices with this pattern. */
 status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
                         fault *f);
-/* Sets *out to the pattern of the tangent in any state. If a load may make tangents unsymmetric,
- * both triangles are stored. A matrix with this pattern is then symmetric only if its values are.
- * */
+/* Sets *out to the pattern of the tangent in any state. Both triangles are stored if tangents may
+ * be unsymmetric (assemble_symmetric). A matrix with this pattern is then symmetric only if its
+ * values are. */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
 /* Like assemble_pattern_of_states, but both triangles are always stored, for states of a motion. */
@@ -132,7 +132,8 @@ status assemble_pattern_whole(const model *, assemble_patterns *, int with_drive
  * symmetric. damped 1: they are also stored if dashpots are not symmetric. */
 status assemble_pattern_at_rest(const model *, assemble_patterns *, int damped, int with_driven,
                                 const sparse **out, fault *f);
-/* Returns 0 if a load, a spring or a support may make tangents unsymmetric. */
+/* Returns 0 if a load, a support, a spring, a dashpot, or a formulation with a history may make
+ * tangents unsymmetric. */
 int assemble_symmetric(const model *);
 /* Sets *out to the free x free pattern for motions. The pattern is always unsymmetric, because the
  * inertia of rotating masses has unsymmetric tangents. */
@@ -159,13 +160,14 @@ void centreline_fill(const model *m, const model_state *s, centreline_point out[
 void centreline_nodes(const model *m, const model_state *s, double out[]);
 /* Creates a state: `from` moved by `scale` times the increments x[free + driven]. sigma[elements x
  * strains]: stresses of the state; NULL: the stresses of `from`. scale 0: selects a scale for which
- * the displacement is visible (a tenth of the size of the scene, or half a radian). *scale: the
- * scale that was used. */
+ * the displacement is visible (at most a tenth of the length of the longest member, and half a
+ * radian). *scale: the scale that was used. */
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f);
 
-/* How the members of a scene are divided into elements. These nodes divide the member into pieces.
- * Each piece has the requested number of elements of equal length. */
+/* How the members of a scene are divided into elements. Loads that begin, end or act between the
+ * ends of a member divide it into pieces. Each piece has the requested number of elements of equal
+ * length. */
 
 typedef struct division {
     int *first; /* [members + 1] number of pieces of all previous members */
@@ -254,7 +256,8 @@ typedef struct mesh_element {
      * of released ends */
     int columns;
     int index[MODEL_MAX_COORDINATES]; /* global coordinate of each column; NONE: fixed */
-    /* 1: there is no offset, sequence or released end, so elimination only selects coordinates */
+    /* 1: there is no offset, rotated axis, sequence or released end, so elimination only selects
+     * coordinates */
     int plain;
 } mesh_element;
 
@@ -296,7 +299,8 @@ typedef struct mesh_kind {
     element_data *data;
     size_t data_size;
     displacement_field field; /* displacements between the nodes, for loads */
-    double *inner; /* field_inner if frequencies are requested; NULL: the type computes its mass */
+    double *inner; /* field_inner, if a modal or harmonic analysis uses the consistent mass of this
+                      field; otherwise NULL */
 } mesh_kind;
 
 /* Data that the inline functions below read. */
@@ -323,7 +327,7 @@ typedef struct model_mesh {
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     int takes; /* 1: elements include loads along them in their equilibrium (element_type.along) */
-    int frees; /* 1: there are temperatures or members with initial strains */
+    int frees; /* 1: there are temperatures, or members with elongations or initial strains */
     /* number of doubles of an element in a linear_memory (harness/newton/newton.h) */
     int work_size;
     scene_tie *tie; /* [6 nodes] coordinates of nodes in constraints; NULL: none */
@@ -379,8 +383,8 @@ static inline int model_history(const model *m)
 {
     return model_mesh_of(m)->history;
 }
-/* Returns 1 if the strains of the elements are the motions of their nodes, because they compute
- * forces with a history. Tangents may then be unsymmetric. */
+/* Returns 1 if the strains of the elements are the motions of their nodes, because the type
+ * computes forces with a history. Tangents may then be unsymmetric. */
 static inline int model_absolute(const model *m)
 {
     return model_mesh_of(m)->type->force != NULL && model_history(m) > 0;
@@ -514,7 +518,8 @@ static inline int model_first_release(const model *m)
 }
 /* Returns the only axis about which a node is fixed or prescribed. The support of such a node can
  * exert a moment about this axis at any rotation about the other two. NONE: there is no such axis,
- * or there are several. */
+ * or there are several; the rotation is a sequence or is prescribed as a vector; or another node
+ * moves this node. */
 int coordinates_held_turn(const model *, int node);
 /* Return the number of warping amplitudes and additional unknowns, and the coordinate of one of
  * them. */
@@ -644,8 +649,8 @@ void assemble_vector(const mesh_element *el, const double local[], double out[])
 /* Subtracts a value from an entry. Has no effect if the entry is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
 
-/* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
- * curvature are zero. */
+/* An arc of constant torsion and curvature between two points. The arc is straight if the curvature
+ * is zero. */
 typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
@@ -656,7 +661,8 @@ typedef struct member_arc {
 } member_arc;
 
 /* Computes the axis of a member. axes_angle [rad]: angle of the axes of the section. REFUSED: no
- * arc of this curvature connects the ends of the member. */
+ * arc of this curvature connects the ends of the member, or its y axis is parallel to the
+ * member. */
 status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
 /* Computes the position, and the triad without the bow, at the arc length s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
@@ -665,14 +671,14 @@ unsigned features_needed(const scene *);
 /* Returns the physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);
 /* Returns physics, not omitted, that the analyses of the scene need but that a section given by its
- * constants does not define. A constant that is given as zero is defined. */
+ * constants or matrices does not define. A constant that is given as zero is defined. */
 unsigned features_not_given(const scene *, int section);
 /* Returns 1 if a section of walls has a bimoment that causes torsion and the analyses depend on it.
  * No formulation models this effect. Returns 0 without stresses, in a plane, or if warping or the
  * Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
-/* Like features_needed, but with the shear theory of the type in stability instead of the requested
- * theory. */
+/* Like features_needed. But if the type does not support the requested shear theory in stability,
+ * its own theories replace the requested theory. */
 unsigned features_needed_of(const scene *, const element_type *);
 /* Returns the shear theory in stability that the type uses for this scene, a bit of shear_theory;
  * 0: there is no shear flexibility, or there are no stresses. */
@@ -715,9 +721,10 @@ double kinematics_relative(const model *, const model_state *, int from, int nod
 double kinematics_driver_value(const model *, const model_state *, int driver);
 /* Returns the largest angle [rad] between the orientations of an element's nodes, and this element.
  * chords 1: also considers the angles between the chord of an element and the x axes of its ends.
- * Angles below two full revolutions are distinguished. */
+ * Angles up to a full revolution are distinguished. */
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
-/* Returns the largest such angle about the axis of the element. */
+/* Returns the largest angle [rad], 0 to pi, between the first and the last node of an element about
+ * its undeformed x axis, and this element. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
 /* Returns the largest rise of the arc of an undeformed element due to its curvature about z, in
  * radii of gyration, and this element. */
@@ -727,8 +734,8 @@ double kinematics_largest_rise(const model *, int *element_index);
 int kinematics_coordinate(const model *, int node, int component);
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Computes the Jacobian T[6 x m] (row-major) of the six spatial increments of a vertex with respect
- * to the m coordinates on which it depends. index[m]: indices of these coordinates. Returns m <=
- * size; m is at most 6 for a node. */
+ * to the m coordinates on which it depends. index[m]: indices of these coordinates. State NULL:
+ * undeformed. Returns m <= size; m is at most 6 for a node. */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 /* Computes the current vector [m] from the body of a vertex to the vertex. */
@@ -767,8 +774,8 @@ void kinematics_swing(const model *, const model_state *, int vertex, double mor
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
 /* Recomputes everything that depends on the coordinates of the bodies. */
 void kinematics_follow(const model *m, model_state *s);
-/* Computes the increments of an element's coordinates, local[7 nodes], from the increments of the
- * model's coordinates. */
+/* Computes the increments of an element's coordinates, local[7 nodes, and the additional unknowns],
+ * from the increments of the model's coordinates. */
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
@@ -784,7 +791,7 @@ double metric_shift_part(const model *, const double dx[]);
  */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
-/* Returns the largest angle [rad], over the nodes, between the orientations of a node in two
+/* Returns the largest angle [rad], over the bodies, between the orientations of a body in two
  * states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
@@ -874,11 +881,12 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
 int profile_at(const model *m, int member, int number);
 
 /* Released ends of members, whose rotations and displacements are independent of the node
- * (scene_release). Each released end has a vertex after all other vertices, in the list `release`.
- * R and r are the frame of the node's body, rho is the vector from the body to the node, and a, d
- * are the axes of the undeformed member at the end. Then R_end = R exp(a_1 t_1) exp(a_2 t_2), r_end
- * = r + R rho + R_end (sum d_i s_i). Three released rotations have no order: R_end is free, with
- * spatial increments. The coordinates t, s of the end follow those of the element's nodes. */
+ * (scene_release). Each released end, and each end with an offset, has a vertex after all other
+ * vertices, in the list `release`. R and r are the frame of the node's body, rho is the vector from
+ * the body to the end, with its offset but without its released displacements, and a, d are the
+ * axes of the undeformed member at the end. Then R_end = R exp(a_1 t_1) exp(a_2 t_2), r_end = r + R
+ * rho + R_end (sum d_i s_i). Three released rotations have no order: R_end is free, with spatial
+ * increments. The coordinates t, s of the end follow those of the element's nodes. */
 
 /* Returns the released end at this vertex; NULL: none. */
 static inline const mesh_release *release_of(const model *m, int vertex)
@@ -888,15 +896,16 @@ static inline const mesh_release *release_of(const model *m, int vertex)
 }
 
 /* Returns the rotation or displacement of a member's end (0 at p, 1 at q) relative to its node, by
- * component; 0: the component is not released. For three released rotations, this is the rotation
- * vector, which is NAN beyond 3 rad. */
+ * component; 0: the component is not released. For three released rotations, this is a component of
+ * the rotation vector, which is NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
 /* Like release_value, but for small motions x about the undeformed state `rest`, and without the
  * contribution of the node's rotation. This contribution is the scalar product of `node` and the
  * rotation. */
 double release_linear_value(const model *, const model_state *rest, const double x[], int member,
                             int end, int component, double node[3]);
-/* Changes the released coordinates of the end by dx. Returns the largest change [1, rad]. */
+/* Changes the released coordinates of the end by dx. Returns the largest change: a displacement
+ * relative to model_length, or an angle [rad]. */
 double release_advance(const model *, model_state *, int vertex, const double dx[]);
 
 /* Computes the spatial axes of the rotations [turns x 3]. The axes of three rotations are the fixed
@@ -916,7 +925,7 @@ enum { SPRING_STRAINS = 6 };
 void spring_law(const scene_spring *, const double e[6], double sigma[6], double S[36]);
 double spring_energy(const scene_spring *, const double e[6]);
 /* Computes the discrete-gradient stress and its derivative with respect to e. The work of this
- * stress on the increment to e equals the change of energy for each component. */
+ * stress on the increment from `from` to e equals the change of energy for each component. */
 void spring_mean(const scene_spring *, const double from[6], const double e[6], double sigma[6],
                  double S[36]);
 /* Computes S at rest. */
@@ -938,7 +947,8 @@ void spring_strain(int nodes, const node_state x[], const double near[3], strain
 
 /* Returns 1 if a part of the undeformed structure can move in spite of the supports. *node: a node
  * of this part. motion: a rigid motion that the supports allow, scaled arbitrarily (displacement of
- * the node [m], rotation [rad]). Prescribed coordinates count as fixed. */
+ * the node [m], rotation [rad]). Prescribed coordinates count as fixed. Only parts with members are
+ * checked. Returns 0 without a check if the scene has constraints, or if out of memory. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
 /* Smallest relative eigenvalue of the sum of squares for which a part counts as held. */
@@ -946,9 +956,10 @@ extern const double supports_loose;
 
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
-/* Returns the vertex that rigidly moves this vertex. */
+/* Returns the vertex that rigidly moves this vertex. apart 1: a released end moves itself. */
 int supports_mover(const model *, int vertex, int apart);
-/* Computes G[6 x 6], the rigid motion (m, rad) of a position due to the motions of the origin. */
+/* Computes G[6 x 6], the rigid motion (m, rad) of a position due to the motion of the origin:
+ * displacement [m], and rotation times `length` [m]. */
 void supports_rigid(const double position[3], double length, double G[36]);
 /* Computes the matrix out[6 x 6] of the motions that the supports of a node prevent, for rigid
  * motions about the origin. */
@@ -972,7 +983,7 @@ int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
 
-/* Returns 1 if a vector of more than half a revolution has changed its direction. */
+/* Returns 1 if a vector of more than half a revolution has clearly changed its direction. */
 int turns_swung(const double from[3], const double to[3]);
 /* Returns 1 if the angle `size` is within `near` [rad] of one or more full revolutions. */
 int turns_full(double size, double near);

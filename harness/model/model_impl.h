@@ -28,7 +28,7 @@ int features_spreads(const scene *, int analysis, const element_type *, const do
 /* Returns the features without which a requested quantity is meaningless. */
 unsigned features_of_quantities(const scene *);
 
-/* Removes omitted physics from a section if elements do not remove it. */
+/* Removes omitted shear flexibilities and eccentricities from the constants of a section. */
 void missing_omit(section *, unsigned omits);
 /* Returns the description of the limit of the type that a section with this number of closed cells
  * exceeds; NULL: none. warps 1: the scene requires warping. */
@@ -59,8 +59,8 @@ void release_follow(const model *, model_state *);
  * released coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
 /* Transforms K to the frame of the node, as release_force does for the force. The six coordinates
- * of the end start at `at`, and the released coordinates start at `own`. force[6]: as in
- * release_force, which must be called first; NULL: second derivatives are omitted. */
+ * of the end start at `at`, and the released coordinates start at `own`. force[6]: force on the
+ * end, which is transformed as well; NULL: second derivatives are omitted. */
 void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
                     double force[6], double K[]);
 
@@ -87,7 +87,7 @@ struct model {
     element_type completed;    /* copy of the type to which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
-    unsigned features, omits; /* supported features, and omitted physics of the scene */
+    unsigned features, omits; /* included features, and omitted physics of the scene */
     section *section;         /* sections of the scene, followed by those of tapered members */
     int *profile;             /* [members] index of the section of the first element */
     mesh_triad *triad;        /* [triads] with capacity for all nodes of all elements */
@@ -108,7 +108,7 @@ _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the
 /* Initial imperfections: displacements and rotations at points of members, interpolated linearly
  * between the points. */
 struct model_imperfect {
-    scene own;   /* scene with copies of nodes, members and loads */
+    scene own;   /* scene with copies of nodes, members, loads and imperfections */
     scene lines; /* copy of the scene in which only nodes are shifted, for the lines of members */
     int modes;   /* 0: there are only shifts of nodes */
     int *first;  /* [members + 1] index of the first point of each member */
@@ -130,7 +130,7 @@ void imperfect_turn(const model *, int member, const double place[2], double tur
 void centreline_increments(const model *, const double x[], double out[]);
 
 /* Sets the length and R of an arc with curvature k between two points (release.c). y: y axis at the
- * start of the arc. REFUSED: there is no such arc. */
+ * start of the arc. REFUSED: there is no such arc, or y is parallel to it. */
 status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
                           member_arc *, fault *);
 

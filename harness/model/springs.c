@@ -101,8 +101,8 @@ static void between_frames(const model_state *s, const mesh_turn *t, double q[4]
     rotation_compose(back, &s->q[4 * t->node], q);
 }
 
-/* Sets the rotation vector of a node that rotates about one axis by a prescribed or fixed angle.
- * The angle may change by any amount in a step. Returns 0 for other nodes. */
+/* Sets the rotation vector of a node whose rotation is a sequence of angles of which only one is
+ * not zero. This angle may change by any amount in a step. Returns 0 for other nodes. */
 static int by_angle(const model *m, const model_state *s, int node, double out[3])
 {
     const mesh_vertex *v = &m->mesh.vertex[node];

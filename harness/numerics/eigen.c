@@ -61,7 +61,7 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
 }
 
 /* Sets *exist to the number of existing eigenvalues. They are counted above smaller and smaller
- * values until their number is at least `enough`. */
+ * values until their number is at least `enough` or the value is `least`. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -166,8 +166,8 @@ static double evaluate(candidates *p, int count, eigen_side *out, long *solution
     return largest;
 }
 
-/* Improves the vectors if the errors of the assembled K have changed the eigenvalues, because these
- * errors also affect the vectors. */
+/* Computes residuals and errors. If the assembly of K has noticeably changed x^T K x of a candidate
+ * and K_product is available, improves the vectors first, which are also affected. */
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };

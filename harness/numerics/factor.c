@@ -1,7 +1,8 @@
 /* LDL^T for symmetric and LU for unsymmetric matrices. A check shows if a small pivot is only a
  * rounding error. With x = A^-1 e_i and y = A^-T e_k, the number x_k = y^T A x is a sum of terms
  * y_i a_ij x_j. Rounding of A changes x_k by about eps times the square root of the sum of the
- * squares of these terms. If this change is as large as x_k, A is singular to working precision. */
+ * squares of these terms. If this change exceeds a quarter of x_k, A is singular to working
+ * precision. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
@@ -13,8 +14,8 @@ static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric
                                        factor_counts *counts, fault *f);
 /* Factors the values. Returns OK, SINGULAR, or FAULT if out of memory. The first pivot order is
  * used again for all later matrices, without allocation, until pivot growth requires a new order.
- * *row, *column: position of the smallest pivot. *ratio: its magnitude relative to the largest
- * entries of this row and column. */
+ * *ratio: smallest magnitude of a pivot relative to the largest entry of its column, after every
+ * row is divided by its largest entry. *row, *column: position of this pivot. */
 static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
                                          factor_counts *counts, int *row, int *column,
                                          double *ratio);

@@ -18,8 +18,7 @@ struct factor_symmetric {
     int lent;
     int *integers;
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]); inverse of this permutation */
-    /* [n + 1] and [entries] upper triangle of C; `row` contains positions in L after its columns
-     * are known */
+    /* [n + 1] and [entries] upper triangle of C; triangular_groups_place converts `row` */
     int *column, *row;
     int *source; /* [entries] position in A of each entry of C */
     int *L_column;
@@ -182,8 +181,8 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     return largest;
 }
 
-/* Sums the absolute values of the terms of the pivots. This is needed only if a pivot is not
- * positive; otherwise the terms do not exceed a_kk. */
+/* Sums the absolute values of the terms of the pivots. If no pivot is negative, the sum over j does
+ * not exceed a_kk and is omitted. */
 static void sum_terms(factor_symmetric *fs, int negative_pivots)
 {
     memcpy(fs->terms, fs->diagonal, (size_t)fs->n * sizeof *fs->terms);

@@ -39,7 +39,8 @@ void subspace_free(subspace *b)
     free(b->Gp);
 }
 
-/* Computes y = G x for a skew-symmetric G whose upper triangle is stored. */
+/* Computes y = G x for a skew-symmetric G, of which the upper triangle or all entries are
+ * stored. */
 static void subspace_skew_mul(const sparse *G, const double x[], double y[])
 {
     if (!G->symmetric) {
@@ -141,7 +142,8 @@ static forms forms_of(const motion_estimate *e, const double re[], const double 
                    -2 * dense_dot(n, re, part(e, G_IM))};
 }
 
-/* Returns the root of k - omega^2 m + omega g = 0 that is closer to the estimated frequency. */
+/* Returns the root of k - omega^2 m + omega g = 0 that is closer to the estimated frequency, or
+ * this estimate if a root is not finite. */
 static double quotient(const forms *of, double frequency)
 {
     const double root = sqrt(of->g * of->g + 4 * of->k * of->m),

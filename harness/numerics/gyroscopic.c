@@ -9,17 +9,18 @@
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
-/* limits of residuals relative to x^H K x; the relative error of a frequency is the square of the
- * residual */
+/* limits of the residual sqrt(r^H S^-1 r) with x^H S x = 1; the relative error of a frequency is of
+ * the order of its square */
 static const double good_residual = 1e-8, acceptable_residual = 1e-5;
-/* A pair need not converge if rounding changes its residual by more than this limit. */
+/* A pair need not converge if rounding changes lambda^2 by more than this fraction. */
 static const double no_digits = 1e-7;
-/* K counts as nearly singular if the smallest eigenvalue of (K, M) is below near_zero times the
- * other eigenvalues, or below near_zero times the square of the rate of G. The shift is then
- * away_from_zero times these values. */
+/* K counts as nearly singular if the smallest magnitude of the eigenvalues of (K, M) is below
+ * near_zero times a scale: the square of the rate of G or, if it is smaller and all requested
+ * eigenvalues are known, their largest magnitude. The shift is then away_from_zero times the
+ * scale. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* If all pairs have been found, any other frequency is at least this number times the last
- * frequency found. */
+/* If there are no pairs beyond those found, frequencies are counted below this number times the
+ * last one. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {

@@ -12,7 +12,8 @@ enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
 enum {
     ENDED_EARLY = 1,
     CONVERGED = 4
-}; /* indices in ARPACK's arrays: result, number of converged values */
+}; /* value of ARPACK's info after an iteration that ended early; index of the number of converged
+      values in its iparam */
 
 /* Tolerance for the error of a vector. The error of its Rayleigh quotient is the square of this
  * value. */
@@ -65,7 +66,7 @@ static void fill_start(int n, double x[])
     }
 }
 
-/* Removes the components of x along X. The dual vectors measure these components. */
+/* Computes x -= X dual^T measured for the `known` vectors. */
 static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
                     double x[])
 {
@@ -79,7 +80,8 @@ static void deflate(int n, int known, const double *dual, const double *measured
     }
 }
 
-/* Computes y = OP x. The components along X are removed from both. */
+/* Computes y = OP x, and replaces x by s A x, as ARPACK requires. Removes the known eigenvectors
+ * from both. */
 static void apply(const lanczos_problem *p, double x[], double y[])
 {
     const int n = p->K->n;
@@ -160,7 +162,8 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
 }
 
 /* ARPACK stores its state between calls in static variables, so only one thread may use it at a
- * time. A process that is forked while another thread uses ARPACK does not have this thread. */
+ * time. A process that is forked while another thread uses ARPACK does not have this thread;
+ * therefore a fork waits for the lock. */
 static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t forks = PTHREAD_ONCE_INIT;
 

@@ -8,8 +8,8 @@
 
 /* Sparse matrices in compressed columns, and their direct factorisation. Of a symmetric matrix,
  * only the upper triangle (row <= column) is stored; of any other matrix, all entries are stored.
- * If by_numbers is 1, all entries are stored, and the matrix is factored as symmetric if its values
- * are symmetric. */
+ * by_numbers 1: all entries are stored, and the matrix is factored as symmetric if its values are
+ * symmetric within FACTOR_SYMMETRIC_WITHIN. */
 
 typedef struct sparse {
     int n, symmetric;
@@ -19,12 +19,12 @@ typedef struct sparse {
     int by_numbers;
 } sparse;
 
-/* Allocates a matrix that shares column and row of the pattern. Only the values belong to the new
- * matrix. */
+/* Allocates a matrix of zeros with the pattern's `column` and `row`, which it shares. */
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
-/* Copies the leading rows and columns of `whole`. */
+/* Copies the values of the first leading->n rows and columns of `whole`, in which the two patterns
+ * must agree. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
 /* Returns the position of an entry in `value`, or -1 if it is not stored. */
 int sparse_position(const sparse *a, int row, int column);
@@ -32,8 +32,8 @@ int sparse_position(const sparse *a, int row, int column);
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
-/* Returns eps times the sum of the absolute values of the terms of x^T A y. A is symmetric, or
- * skew-symmetric with its upper triangle stored. */
+/* Returns eps times the sum of the absolute values of the terms of x^T A y. A may be skew-symmetric
+ * with its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
 typedef struct by_numbers by_numbers;
@@ -54,7 +54,8 @@ typedef struct factor_counts {
     int negative_pivots; /* number of negative pivots of a symmetric matrix; otherwise -1 */
     double asymmetry;    /* largest |a_ij - a_ji|/sqrt|a_ii a_jj| of a matrix with by_numbers */
     int determinant;
-    double condition; /* inexpensive estimate of the condition number, max|d|/min|d| */
+    double
+        condition; /* inexpensive estimate of the condition number, max|d|/min|d| of the pivots d */
     /* 1: A is singular to working precision, but its factors are those of a matrix that differs
      * from A by rounding errors */
     int lost;
@@ -71,8 +72,8 @@ status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
-/* Factors the values. SINGULAR: a pivot is zero or not finite, or growth of the factors has
- * destroyed all digits. */
+/* Factors the values. SINGULAR: a pivot is zero, not finite or only a rounding error. FAULT: out of
+ * memory. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
 /* Reports a singular stiffness matrix. Returns SINGULAR. */
 status factor_report_singular(fault *f);
@@ -93,11 +94,12 @@ typedef struct factor_operator {
     factor_counts (*count)(const void *context);
     void (*free)(void *context);
 } factor_operator;
-/* Makes a factor from an operator, which the factor then owns. factor_solve,
- * factor_solve_transposed and factor_count call the operator, and no matrix is factored. */
+/* Makes a factor from an operator, which is freed with the factor, or at once if this function
+ * fails. factor_solve, factor_solve_transposed and factor_count call the operator, and no matrix is
+ * factored. */
 status factor_of(const factor_operator *, matrix_factor **out, fault *f);
 /* Returns an estimate of the 1-norm condition number of the factored matrix a, with rows and
- * columns scaled by the square root of its diagonal. NAN: out of memory. */
+ * columns divided by the square roots of its diagonal. NAN: out of memory. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
 /* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
@@ -106,10 +108,11 @@ double factor_condition(matrix_factor *fa, const sparse *a);
  * Buckling: A = -G, mu = 1/lambda. Vibration: A = M, mu = 1/omega^2 (for a structure without
  * supports, K + shift M replaces K). Small problems are solved with dense matrices (LAPACK), large
  * problems by the Lanczos method in the inner product of K (ARPACK). Each mu is the quotient of two
- * quadratic forms, which the caller can evaluate more accurately than the matrices do. The inertia
- * of K - A/s proves that no eigenvalue is missing, including repeated eigenvalues. */
+ * quadratic forms, which the caller can evaluate more accurately than the matrices do. In large
+ * problems, the inertia of K - A/s with s between two eigenvalues proves that no eigenvalue is
+ * missing, including repeated eigenvalues. */
 
-/* Relative error above which a value has no significant digits. */
+/* An eigenvalue with a larger relative error has no significant digits. */
 #define EIGEN_LARGEST_ERROR 1e-2
 
 typedef double eigen_form(void *context, const double x[]);
@@ -129,13 +132,13 @@ typedef struct eigen_problem {
     eigen_product *K_product; /* computes y = K x more accurately than the matrix product; NULL: not
                                  available */
     void *context;            /* passed to all functions of this structure */
-    int iterate;              /* 1: the Lanczos method is used for any size (for tests) */
+    int iterate; /* 1: the Lanczos method is used for small problems as well (for tests) */
 } eigen_problem;
 
 typedef struct eigen_side {
     /* number of eigenvalues; smaller than requested if there are no more, or because of `reason` */
     int count;
-    double *mu;       /* [count] largest magnitude first */
+    double *mu;       /* [count] largest magnitude first; NaN: lost in rounding errors */
     double *mode;     /* [count x n] vectors with x^T K x = 1 */
     double *residual; /* [count] the distance from mu to an eigenvalue is at most residual |mu| */
     double *error; /* [count] estimated relative error of mu, about residual^2 if mu is isolated */
@@ -155,10 +158,10 @@ typedef struct eigen_result {
                                 matrices */
 } eigen_result;
 
-/* Solves the problem. REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not
- * converge; the values found on both sides are kept. A value is not returned if it is within the
- * rounding error of the largest value or of its quadratic form or, in large problems, below 1e-9 of
- * the largest value. */
+/* Solves the problem. REFUSED: K is not positive definite, or was not factored as symmetric.
+ * NOT_CONVERGED: one of the sides did not converge; the values found on both sides are kept. A
+ * value is not returned if it does not exceed the rounding error of the largest value or of its
+ * quadratic form or, in large problems, below 1e-9 of the largest value. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
@@ -185,10 +188,10 @@ double clock_processor_seconds(void);
  *
  * Massless coordinates have no frequency.
  *
- * The assembly of K loses digits of soft motions. */
+ * The assembly of K loses digits of soft motions, which K_product keeps. */
 
 typedef struct gyroscopic_problem {
-    /* K and M have the same symmetric pattern; the upper triangle of G is stored */
+    /* K, M and G have the same pattern; the upper triangle of each is stored */
     const sparse *K, *M, *G;
     /* factor after factor_numeric; its values are replaced if K + shift M replaces K */
     matrix_factor *K_factor;
@@ -201,10 +204,12 @@ typedef struct gyroscopic_problem {
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
-    int n, count; /* count: number of modes; smaller than requested if there are no more */
-    /* [count] frequency of lambda = growth + i frequency [1/s], in ascending order of magnitude */
+    int n, count; /* count: number of modes; smaller than requested if there are no more, or if the
+                     others have no significant digits */
+    /* [count] imaginary part of lambda = growth + i frequency [1/s], in ascending order of
+     * |lambda| */
     double *frequency;
-    double *growth; /* [count] growth; zero if K is positive definite */
+    double *growth; /* [count] real part of lambda; zero for oscillations */
     double *error;  /* [count] estimated error of lambda, relative to |lambda| */
     double *mode;   /* [count x n] real part of the motion, at the phase at which it is largest */
     int negative;   /* number of negative eigenvalues of K */
@@ -219,10 +224,8 @@ typedef struct gyroscopic_result {
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Checks the available memory before a problem is solved. */
-
-/* Checks the memory. REFUSED: `what` needs more memory than the machine has. bytes: lower bound of
- * the required memory. */
+/* REFUSED: `what` needs more memory than the machine has or this process may use. bytes: lower
+ * bound of the required memory. */
 status memory_check(double bytes, const char *what, const char *remedy, fault *f);
 /* Appends a copy of `entry` (`size` bytes) to the list at *list. The caller frees the list with
  * free(). FAULT: "out of memory for WHAT", where WHAT is the text `what`. */
@@ -250,8 +253,8 @@ typedef struct phases {
     double seconds[PHASES];
 } phases;
 
-/* Sets all parts to zero and measures the duration of a reading, which is the shortest of
- * several. */
+/* Sets all parts to zero. wanted 1: also measures the duration of a reading, which is the shortest
+ * of several. */
 static inline void phases_request(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -315,25 +318,28 @@ typedef int thread_pool_take(void *context, int piece, int slot);
 
 enum { THREAD_POOL_MOST = 16, THREAD_POOL_SLOTS = 8 };
 
-status
-thread_pool_alloc(int threads, thread_pool **out,
-                  fault *f); /* the caller counts as one thread; threads <= 1: *out is NULL */
+status thread_pool_alloc(int threads, thread_pool **out,
+                         fault *f); /* the caller counts as one thread; threads <= 1: *out is NULL;
+                                       at most THREAD_POOL_MOST threads */
 void thread_pool_free(thread_pool *t);
 /* Runs `work` over [0, count) on all threads, and returns when all work is done. t NULL: only the
  * calling thread is used. */
 void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *context);
-/* Fills and uses the pieces [0, pieces). Any free thread fills the next piece, at most a few pieces
- * ahead. The caller uses the pieces in order, and also fills pieces. */
+/* Fills and uses the pieces [0, pieces). Any free thread fills the next piece, at most
+ * THREAD_POOL_SLOTS pieces ahead of the caller. The caller uses the pieces in order, and also fills
+ * pieces. */
 void thread_pool_relay(thread_pool *t, int pieces, thread_pool_fill *fill, thread_pool_take *take,
                        void *context);
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
-/* Nonzero entries. */
+/* Nonzero entries of a matrix; only those of the lower triangle if the matrix is symmetric or
+ * skew-symmetric. */
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
-    int *row, *column; /* [entries] indices from zero, column by column */
+    int *row, *column; /* [entries] indices from zero; column by column for a general matrix, row by
+                          row otherwise */
     double *value;
 } triplets;
 
@@ -342,7 +348,7 @@ typedef struct triplets {
 status triplets_of(const sparse *a, int skew, triplets *out, fault *);
 /* Removes all rows and columns except the leading n. */
 void triplets_lead(triplets *, int n);
-/* Copies the entries of a dense matrix [columns x rows], column by column. */
+/* Copies the nonzero entries of a dense matrix [columns x rows], column by column. */
 status triplets_of_columns(int rows, int columns, const double value[], triplets *out, fault *);
 /* Computes y[rows] = A x. */
 void triplets_mul(const triplets *A, const double x[], double y[]);
@@ -366,15 +372,17 @@ typedef struct second_order {
 status second_order_alloc(int n, int motions, int inputs, int outputs, second_order *, fault *);
 void second_order_free(second_order *);
 
-/* Computes a reduced model q = T x. The caller frees T [(n + motions) x (columns + motions)] in any
+/* Computes a reduced model q = T x. The caller frees T [(n + motions) x (out->n + motions)] in any
  * case. T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
  * modes with the interface fixed. Without an interface, T consists of modes and the static shapes
- * of forces. REFUSED: the message gives the reason. *modes becomes the number of modes in T, which
- * is larger if the requested number would separate modes with the same frequency. */
+ * of forces. The last columns are the static shapes of the prescribed motions. REFUSED: the
+ * structure can move while the interface is fixed, or has fewer modes with mass than *modes. *modes
+ * becomes the number of modes in T, which is larger if the requested number would separate modes
+ * with the same frequency. */
 status second_order_reduce(const second_order *, const char edge[], int *modes, second_order *out,
                            double **T, fault *);
-/* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest: [n]; NAN:
- * none. */
+/* Computes the undamped natural frequencies hertz[n] [Hz] in ascending order, with the prescribed
+ * motions at rest. NAN: a coordinate without mass; all NAN: K is not positive definite. */
 status second_order_frequencies(const second_order *, double hertz[], fault *);
 /* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
  * real and imaginary parts. rounding[outputs x inputs]: bound of the rounding errors, for which

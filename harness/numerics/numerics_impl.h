@@ -22,7 +22,7 @@ typedef struct candidates {
     double *work, *form;
     int refinements;    /* number of refinements of every solution */
     double *correction; /* [n] work space for refined solutions; NULL: solutions are not refined */
-    sparse shifted;     /* K - s A/mu, whose values are set when they are first needed */
+    sparse shifted;     /* K - sign A/mu, allocated when it is first needed */
     matrix_factor *shifted_factor;
 } candidates;
 
@@ -34,8 +34,8 @@ int candidates_is_rounding(const candidates *p, double energy, const double x[])
 /* Returns the largest relative change of x^T K x due to the assembly of K, over the first `count`
  * candidates. */
 double candidates_departure(const candidates *p, int count);
-/* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the current
- * departure is reduced by a factor of 1e-6. */
+/* Makes all later solutions K^-1 A x use K_product, with so many iterative refinements (at most 12)
+ * that their error is reduced from the current departure to 1e-6. */
 status candidates_refine(candidates *p, int count, fault *f);
 /* Returns the threshold below which values are rounding errors of the largest value `scale`. */
 double candidates_least(int n, double scale);
@@ -70,8 +70,8 @@ typedef struct subspace {
 status subspace_alloc(subspace *b, eigen_product *S, void *context, const sparse *M,
                       const sparse *G, int room, fault *f);
 void subspace_free(subspace *b);
-/* Adds the component of x that is orthogonal to the basis. Returns 1 if this component is not zero
- * and the basis was not full. */
+/* Adds the component of x that is S-orthogonal to the basis, normalised. Returns 0 if this
+ * component is negligible or the basis is full. */
 int subspace_add(subspace *b, const double x[]);
 
 typedef struct ritz {
@@ -98,12 +98,12 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f);
 /* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
 
-/* Accuracy of a mode found in a subspace. If w^H (lambda^2 M + lambda G + K) = 0, a change d of K
- * changes lambda by w^H d x/(w^H (2 lambda M + G) x), and lambda w^H (2 lambda M + G) x = w^H
+/* Accuracy of a mode found in a subspace. If w^H (lambda^2 M + lambda G + K) = 0, a change d of
+ * K changes lambda by -w^H d x/(w^H (2 lambda M + G) x), and lambda w^H (2 lambda M + G) x = w^H
  * (lambda^2 M - K) x. For an oscillation, w = x, and the effect of the error of the vector is
- * quadratic: r^H S^-1 r with the residual r, divided by the distance to other frequencies. If two
- * frequencies coincide, this quotient is unbounded, but the square root of the change is bounded.
- * */
+ * quadratic: r^H S^-1 r with the residual r, divided by the distance to other frequencies. If
+ * two frequencies coincide, this quotient is unbounded, and the square root of r^H S^-1 r
+ * replaces it. */
 
 typedef struct motion_estimate {
     const gyroscopic_problem *p;
@@ -112,7 +112,7 @@ typedef struct motion_estimate {
     const ritz *pairs;
     double shift;
     int found;    /* number of returned pairs, which come first */
-    double *work; /* [11 n] */
+    double *work; /* [9 n] */
     long solutions;
 } motion_estimate;
 
@@ -135,7 +135,8 @@ typedef struct factor_symmetric factor_symmetric;
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
                               fault *f);
 /* Allocates a factor for a matrix with the same pattern as `of`, whose order, pattern and work
- * space are shared. `of` must outlive the factor. Only one of the two may be factored at a time. */
+ * space are shared. `of` must outlive the factor. The two must not be factored or used for
+ * solutions at the same time. */
 status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
 /* Factors the values without allocating memory. Returns OK or SINGULAR. *weakest: unknown whose
@@ -155,10 +156,9 @@ void factor_unsymmetric_free(factor_unsymmetric *fu);
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
-/* Number of frequencies below a given frequency: the number of negative eigenvalues of the
- * Hermitian matrix K - omega^2 M + i omega G with positive definite K. */
-
-/* Counts the frequencies below omega. SINGULAR: omega is too close to a frequency. */
+/* Counts the negative eigenvalues of the Hermitian matrix K - omega^2 M + i omega G. If K is
+ * positive definite, their number is that of the frequencies below omega. SINGULAR: omega is too
+ * close to a frequency. */
 status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, double omega, int *below,
                         fault *f);
 
@@ -179,9 +179,8 @@ typedef struct gyroscopic_index {
     int crossed;
 } gyroscopic_index;
 
-/* Returns 1 if mode i grows. The energy of a growing mode is zero, and the energy of an oscillation
- * is not. A real part of an oscillation is a rounding error. If two frequencies coincide, neither
- * test applies, and the modes count as oscillations. */
+/* Returns 1 if mode i grows: if the real part of lambda is too large for a rounding error, or if
+ * the energy x^H (K + |lambda|^2 M) x is zero, as it is only for growing modes. */
 int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
 /* Computes the index from the first `count` pairs found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
@@ -200,7 +199,8 @@ typedef struct lanczos_problem {
 
 /* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order and their
  * K-orthonormal vectors (*x)[wanted x n], which the caller frees. *found: number of values that
- * have converged, at least one. *found is smaller than `wanted` if the iteration ends early. */
+ * have converged; smaller than `wanted` if the iteration ends early. NOT_CONVERGED: no value has
+ * converged, or ARPACK fails. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 
@@ -209,12 +209,11 @@ status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double 
 status polish(candidates *p, long *solutions, fault *f);
 
 /* Computes the values of L and D in P A P^T = L D L^T, row by row. The terms of every number are
- * summed in the order of the columns, so all numbers agree bitwise with those of SuiteSparse's
- * ldl_numeric. */
+ * summed in the order of SuiteSparse's ldl_numeric, so the numbers agree bitwise. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
-/* A run of consecutive columns of L with entries in the same rows. */
+/* A run of consecutive columns of L with entries in the same rows below the run. */
 typedef struct triangular_run {
     int first, count; /* count: 1 .. TRIANGULAR_RUN */
 } triangular_run;
@@ -225,14 +224,14 @@ typedef struct triangular_rows {
                                                  first run of each group */
     const triangular_run *run; /* [run_of_group[groups]] runs in the order of summation */
     const int *begin_A;        /* [n + 1] start of the entries of each row of P A P^T */
-    const int *place, *source; /* for each entry: column TRIANGULAR_LANES + lane of the row; index
-                                  in the values of A */
+    const int *place, *source; /* for each entry: TRIANGULAR_LANES times its column + lane of its
+                                  row; index in the values of A */
     const int *begin, *row;    /* L: starts of the columns [n + 1], and rows [begin[n]] */
     int *filled;               /* [n] number of entries of a column so far */
     double *value;             /* L: [begin[n]] */
     double *D;                 /* [n] */
-    double *diagonal;          /* [n] diagonal of |A| */
-    /* [n + TRIANGULAR_LANES][TRIANGULAR_LANES] work space, zero before and after each call */
+    double *diagonal;          /* [n] magnitude of the diagonal entries of P A P^T */
+    /* [n + TRIANGULAR_LANES][TRIANGULAR_LANES] work space, zero before each call */
     double *rest;
 } triangular_rows;
 

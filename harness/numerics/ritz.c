@@ -50,8 +50,9 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* Computes R[k x k], row-major, with R^T R equal to the projected M. A row is zero if its part of M
- * is only a rounding error of the largest eigenvalue of M. */
+/* Computes R[k x k], row-major, with R^T R equal to the projected M. A row is zero if its part
+ * of M is only a rounding error of the largest eigenvalue of M. Returns 0, or another value if
+ * it fails. */
 static int root_of_mass(const subspace *b, double R[])
 {
     const int k = b->count;

@@ -18,7 +18,7 @@ typedef struct split {
     const second_order *of;
     int n, masses, slow, rigid;
     double *T;
-    double *w; /* [n] circular frequencies of coordinates with mass; 1 for other coordinates */
+    double *w;         /* [n] circular frequencies of the coordinates with mass, which come first */
     double *K, *C, *M; /* [n x n] T^T K T, T^T C T, T^T M T */
     /* [n x motions] forces due to motions through K, C and M; [n x inputs] forces of inputs */
     double *moved[3], *F;
@@ -91,9 +91,10 @@ static status project(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], with
- * rows and columns multiplied by `scale`. Eigenvectors whose eigenvalue exceeds rounding come
- * first. Returns their number; -1: the fault contains the reason. */
+/* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], of which
+ * rows and columns before `from` are omitted and the others are multiplied by `scale`. Eigenvectors
+ * whose eigenvalue exceeds rounding come first. Returns their number; -1: the fault contains the
+ * reason. */
 static int range_of(split *s, const double A[], const double scale[], int from, fault *f)
 {
     const size_t n = (size_t)s->n, size = n - (size_t)from;
@@ -235,8 +236,9 @@ static int relative(const split *s, double L[], double G[])
     return 1;
 }
 
-/* Computes the circular frequencies w[masses] of K + shift M, and V[masses x masses] by columns.
- * *positive 0: K + shift M is not positive definite, and there is no other result. */
+/* Computes the circular frequencies w[masses] of K + shift M and M, and V[masses x masses] by
+ * columns, where L^-T V are the modes. *positive 0: K + shift M or M is not positive definite, and
+ * there is no other result. */
 static status decompose(split *s, double L[], double G[], double V[], int *positive, fault *f)
 {
     const int size = s->masses;
@@ -433,8 +435,8 @@ static int passes_through(const split *s, const double rows[], const double c[],
     return 0;
 }
 
-/* Fills the outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, where q' = Q A x +
- * Q B u if R is zero. */
+/* Fills the outputs [outputs x (states + inputs)]: L0 q + L1 q' + L2 q'' + D u, with q = Q x + R u
+ * (`position`), and q' = Q A x + Q B u, which requires that R is zero. */
 static status fill_outputs(const split *s, const double rows[], const double position[],
                            double *work, state_space *out, fault *f)
 {

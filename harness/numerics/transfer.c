@@ -15,7 +15,8 @@ typedef struct transfer {
     size_t N, u, y;
     double complex *D, *x, *z; /* [N^2] dynamic stiffness, then its factors; [N x u] x = D^-1 B;
                                   [N x y] z = D^-T L^T */
-    double *scale;             /* [N] largest diagonal entry of D among coordinates of this kind */
+    double *scale; /* [N] largest |K_ii| + w |C_ii| + w^2 |M_ii| among the coordinates of the same
+                      kind */
     int *pivot;
 } transfer;
 
@@ -62,7 +63,7 @@ static void scale(const transfer *t, const char kind[])
         t->scale[i] = largest[(int)kind[i]];
 }
 
-/* Returns |S^1/2 x| for a column of x. */
+/* Returns |S^1/2 x| for a column of x, where S is the diagonal matrix of `scale`. */
 static double size_of(const transfer *t, const double complex x[], size_t columns, size_t column)
 {
     double square = 0;

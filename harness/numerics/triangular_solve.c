@@ -5,7 +5,7 @@
 /* The values of an unknown are contiguous: w[n x width]. width and count are compile-time constants
  * after inlining. */
 
-/* Solves L w = w for the columns of a run. */
+/* Subtracts the columns of a run in the solution of L x = w, in place. */
 static inline __attribute__((always_inline)) void
 forward_run(const triangular_factors *t, int first, int count, int width, double *restrict w)
 {
@@ -69,7 +69,7 @@ static inline __attribute__((always_inline)) void forward(const triangular_facto
     }
 }
 
-/* Divides by D, then solves L^T w = w. */
+/* Divides by D, then solves L^T x = w in place. */
 static inline __attribute__((always_inline)) void backward(const triangular_factors *t, int width,
                                                            double *restrict w)
 {
