@@ -1,7 +1,6 @@
 /* Flexure hexapod whose six cranks rotate together, smoothly and in a given time, by the angle that
  * lifts the platform through the stroke of N section 4.3. The platform carries a load. The rods and
- * the bodies inside the joints have masses. Dimensions and masses are synthetic.
- *  */
+ * the bodies inside the joints have masses. Dimensions and masses are synthetic. */
 #include <stddef.h>
 
 #include "cases/shared/shared.h"

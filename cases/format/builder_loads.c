@@ -324,7 +324,7 @@ static void read_nodes(const fields *f, const char *key, int least, int index)
 enum { FORMS = 3, OF_FORM = 4 };
 
 /* Returns the form of a constraint: 0 for equal components, 1 for a ratio, 2 for a diaphragm, and
- * -1 after an error. */
+ * -1 if the keys are not those of one form. */
 static int form_of(const fields *f)
 {
     static const char *const form[FORMS][OF_FORM] = {{"equal", "components", NULL, NULL},

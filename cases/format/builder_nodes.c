@@ -30,8 +30,9 @@ static int component_of(const fields *f, int c, int *same)
 
 static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
 
-/* Returns 1 if the axes of the node are given in the file or are those of a rotated instance. Sets
- * the axes of a rotated instance. */
+/* Returns 1 if the axes of the node are given in the file, or if the node belongs to a rotated
+ * instance and its fixed or prescribed translations are not along the axes of the scene. In the
+ * latter case, sets the axes to those of the instance. */
 static int has_axes(const fields *f, scene_node *n)
 {
     const unsigned held = fields_words(f, "hold", held_choices);

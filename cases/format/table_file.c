@@ -123,8 +123,8 @@ static int add_number(table_file *t, int k, double value)
     return n->text != NULL;
 }
 
-/* Reads the first row. It is a header if it contains the name of a column, or no number in the
- * columns to read. Returns 1 for a header. */
+/* Reads the first row. It is a header if it contains the name of a column to read, or no number in
+ * these columns. Returns 1 for a header. */
 static int begin(table_file *t)
 {
     double number;

@@ -186,7 +186,7 @@ static int is_mistaken(const scene *s, int node, const char *name)
     return other;
 }
 
-/* Returns 1 if the name is unique in its list and allowed as a key. */
+/* Returns 1 if no earlier entry of the list has the name, and a file allows the name as a key. */
 static int is_good_name(const scene *s, scene_list list, int index, const char *name)
 {
     static const char *const taken[] = {"free", "held", "all"};
@@ -361,7 +361,8 @@ static void write_where(writer *w, const void *entry)
     write_values_number(w, scene_stress_of(q)->place);
 }
 
-/* Writes the side of a discontinuity, if the quantity has a position. */
+/* Writes the side of a discontinuity if it is that of p (the default is that of q) and the quantity
+ * is at a position. */
 static void write_side(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

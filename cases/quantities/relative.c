@@ -40,7 +40,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->relative(state, what->from, what->node, what->component);
 }
 
-/* Returns the rotation of the node, then all rotations of the node whose axes are used. */
+/* Lists the component of the node, then the three rotations of the node whose axes are used. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

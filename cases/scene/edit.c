@@ -8,7 +8,8 @@
 extern const quantity_type quantity_hinge;
 
 /* Mirrors a section for a reversed member, whose axes x and y have changed direction. On the
- * opposite face of a cut, Qy and Mw keep their signs and Qz changes sign. */
+ * opposite face of a cut, Qy and Mw (the torque due to restrained warping) keep their signs, and Qz
+ * changes sign. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;

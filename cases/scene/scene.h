@@ -307,7 +307,7 @@ int function_smooth(const scene_function *, double end, double *time, int *deriv
 
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE,       /* displacement component or rotation-vector component of a node */
-    SCENE_REACTION,         /* reaction of a prescribed component at a node */
+    SCENE_REACTION,         /* reaction of a fixed or prescribed component of a node */
     SCENE_COMPLIANCE_ENTRY, /* entry of the 6 x 6 compliance matrix of the node of the analysis */
     SCENE_STIFFNESS_ENTRY,  /* reciprocal of the compliance entry (i, i); fixed coordinates remain
                                fixed */

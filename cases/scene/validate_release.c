@@ -48,8 +48,8 @@ status scene_validate_release(const scene *s, int member, fault *f)
     return STATUS_OK;
 }
 
-/* Adds to P the projection on the complement of the span of `count` axes. P represents the
- * rotations that are resisted. */
+/* Adds to P the projection on the complement of the span of `count` axes. The range of P contains
+ * the rotations that are resisted. */
 static void add_kept(int count, double (*axis)[3], double P[9])
 {
     double basis[3][3];

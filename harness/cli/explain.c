@@ -100,7 +100,8 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* Returns known deviation i. */
+/* Returns known deviation i or, if its cause begins with "the same", the last one before it with
+ * another cause. */
 static const rule *listed_before(const truths *deviations, int i)
 {
     while (i > 0 && strncmp(deviations->rule[i].cause, "the same", 8) == 0)

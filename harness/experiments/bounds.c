@@ -342,7 +342,7 @@ static void other_element(const test_element *s, const call_account *before, con
 }
 
 /* Prepares a longer element in the memory of the element, then prepares the element again, and
- * checks that its results are unchanged. */
+ * checks that its results are unchanged. Returns 0 if this is not possible. */
 static int in_its_place(const test_element *s, const call_account *before, const node_state x[],
                         check_result *one)
 {

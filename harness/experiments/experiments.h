@@ -264,7 +264,7 @@ typedef struct test_element {
     int values;
     int nodes, scalars, strains, coordinates, inner, memory;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
-    char words[TEST_ELEMENT_WORDS];  /* text for messages: "" or ", with option=value, section" */
+    char words[TEST_ELEMENT_WORDS];  /* text for messages: "" or " [option=value, section]" */
 } test_element;
 
 /* Makes an element of the type. REFUSED: the type rejects the section, the features or the options.

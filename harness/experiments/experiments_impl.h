@@ -94,7 +94,7 @@ status profiles_section(profiles_form form, double unit, section *out, fault *f)
  * `without`. */
 unsigned test_element_features(const element_type *t, unsigned without);
 
-/* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
+/* Computes pseudo-random numbers in [-1/2, 1/2) that are determined by the seed. */
 void test_element_numbers(int count, unsigned seed, double out[]);
 /* Rotates the whole element about the origin by the rotation vector `turn`, then shifts it by a
  * fixed multiple of its length. */

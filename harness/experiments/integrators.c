@@ -368,7 +368,7 @@ static void print_orders(FILE *to, const integrators *p, const integrators_group
     }
 }
 
-/* Prints the integrators for which the error of a quantity does not decrease with the step size,
+/* Prints the integrators for which the error of a quantity stagnates (integrators_order_stagnates),
  * and returns their number. text NULL: nothing is printed. */
 static int write_standing(FILE *text, const integrators *p, const integrators_group *g,
                           int quantity)

@@ -207,8 +207,8 @@ static status remove_batches(const batch_store *there, const char *folder, fault
     return STATUS_OK;
 }
 
-/* Reads the computed batches and removes them. If batches are missing, none is read, and a folder
- * next to the output remains. */
+/* Reads the computed batches and removes them. If batches are missing, none is read, and the folder
+ * of the batches remains if there is an output. */
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};

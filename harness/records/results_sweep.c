@@ -72,8 +72,9 @@ static hid_t open_set(const sweep_file *s, const char *name)
     return H5Lexists(s->at, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->at, name, H5P_DEFAULT) : -1;
 }
 
-/* Reads a whole array of this shape. An extent of 0 accepts the actual extent up to `most`. Returns
- * NULL if the array is missing or has another shape. */
+/* Reads a whole array of this shape. An extent of 0 accepts and receives the actual extent; the
+ * array has at most most_items entries. Returns NULL if the array is missing or has another
+ * shape. */
 static void *read_array(const sweep_file *s, const char *name, hid_t type, int ranks,
                         hsize_t size[RANKS])
 {

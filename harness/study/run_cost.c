@@ -11,8 +11,8 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Returns the estimated number of load steps. The shorter steps before the first station count as
- * full steps. */
+/* Returns the estimated number of load steps: `between` steps up to the first station, which are
+ * shorter but count as full steps, and one step for each further station. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;

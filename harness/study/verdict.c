@@ -118,9 +118,9 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Returns 1 if the order is known and too low. With five or more meshes, the previous order must
- * therefore also be below the nominal order, and the three orders must be monotonic. Changes below
- * the uncertainty of the reference value are ignored. */
+/* Returns 1 if the order is known and too low. With more than four meshes, the previous order must
+ * also be below the nominal order, and the last three orders must be monotonic. Changes below the
+ * uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);

@@ -249,8 +249,8 @@ static void add(char *text, const char *word)
     snprintf(text + used, WORDS - used, "%s", word);
 }
 
-/* Describes steps `first` to `last` of a path, which have the same stability. end 1: they are the
- * last steps of the path. */
+/* Describes steps `first` to `last` of a path, which have the same stability. begin 1: they are the
+ * first steps of the path; end 1: the last. */
 static void add_run(const solve_result *r, int first, int last, int begin, int end, char *text)
 {
     const step_record *a = &r->step[first], *b = &r->step[last];

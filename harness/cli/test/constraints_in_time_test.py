@@ -107,8 +107,9 @@ quantities:
                 self.assertLess(abs(found[1][name] - value), 1e-8 * abs(value) + 1e-10, f"{how}: {name}")
 
     def test_gear_in_time(self):
-        """The response to a torque step must be T/k (1 - cos omega t), for both orders of the components in the
-        constraint, with and without inertia beyond the gear."""
+        """The rotation of geared shafts after a torque step T must be T/k (1 - cos omega t), with their stiffness k
+        and their natural frequency omega, for both orders of the components in the constraint, with and without
+        inertia beyond the gear."""
         k1, time, torque = 80e9 * math.pi * 0.01**4 / 2, 0.05, 500
         text = GEAR[:GEAR.index("analyses")].replace("loads: {t: {moment: [0, 0, TORQUE], on: b}, u: {moment: [0, 0, -5], on: d}}",
                                                     "loads: {t: {moment: [0, 0, 500], on: b, time: 1}}")

@@ -170,8 +170,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """A gear must have the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even for large rotations, for both
-        orders of the components in the constraint, and in rotated axes."""
+        """Two shafts with the gear ratio i must have the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even for
+        large rotations, for both orders of the components in the constraint, and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05

@@ -138,8 +138,8 @@ class PhysicsTest(SceneCase):
         self.assertGreater(abs(without["up"] / 177150 - 1), 0.05)
 
     def test_twisted_leaf(self):
-        """A leaf that is free to shorten must have M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A), and shorten by w'^2 L
-        Ip/2A."""
+        """A leaf with the twist rate w' that is free to shorten must have the moment M = G It w' + E/2 w'^3 (int r^4
+        - Ip^2/A), and shorten by w'^2 L Ip/2A."""
         text = BAR.format(
             width=50e-3, thickness=0.5e-3, length=0.1, material=MATERIAL,
             rest="motions:\n  twist: {unit: rad, path: [0, 1], value: [0, 0.2]}\nanalyses:\n"
@@ -155,8 +155,8 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(plain["ux"]), 1e-15)
 
     def test_twisted_walls(self):
-        """Walls that are free to shorten, bend and warp must have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where
-        q is r^2 without its components along 1, y and z."""
+        """Walls with the twist rate w' that are free to shorten, bend and warp must have the moment M = G It w' + 4
+        E c w'^3 with 8 c = int q^2 dA, where q is r^2 without its components along 1, y and z."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (

@@ -23,7 +23,7 @@ class PluginTest(ProgramTest):
         return compile_shared(source, self.folder / name)
 
     def altered(self, example, *changes):
-        """Returns an example in which texts have been replaced. Each text must occur in the example."""
+        """Compiles an example in which texts are replaced. Each text must occur in the example."""
         text = (EXAMPLES / example).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)
