@@ -64,8 +64,9 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* Returns the number of states for which the extrapolation of the last state has the smallest
- * error. */
+/* Returns the number of states from which to extrapolate: that with the smallest error for the
+ * last state, or one more if this number included all states. 0: an extrapolation saves no
+ * iterations. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;

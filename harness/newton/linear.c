@@ -405,8 +405,8 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* Estimates the error of x. Therefore x is perturbed in its last digits and corrected; the result
- * is the distance from the previous x. */
+/* Estimates the error of x. For this purpose, x is perturbed in its last digits and corrected; the
+ * result is the distance from the previous x. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {

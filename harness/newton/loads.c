@@ -11,8 +11,9 @@
  */
 static const double potential = 1e-12;
 
-/* Returns bits LUMPS_*. In a motion with lumped mass, weights are lumped at the ends of elements;
- * with the conserving scheme, all loads are. */
+/* Returns bits LUMPS_* of an analysis. In a motion with lumped mass, weights are lumped at the
+ * nodes of elements; with the conserving scheme, all loads are. An analysis from which such a
+ * motion starts lumps the same loads. */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);

@@ -39,7 +39,7 @@ typedef struct run_undeformed {
 /* Data of all elements that linearise_state passes to advance_state. */
 typedef struct linear_memory {
     /* [elements x model.work_size] J, C, P' + C (D - e), D - e, and the memory of the last
-     * linearisation */
+     * linearisation, followed by the numbers from SLOT_TAKES on (model.h) */
     double *slot;
 } linear_memory;
 
@@ -121,9 +121,9 @@ typedef struct advance_stress {
 } advance_stress;
 
 /* Adds the increments to the strains, stresses and inner unknowns of every element, then to the
- * frames. Returns the largest correction (dimensionless: translations relative to the size of the
- * scene, rotations in rad, warping amplitudes times the size of the scene, inner unknowns as the
- * element defines). */
+ * frames. Returns the largest correction (dimensionless: translations relative to model_length,
+ * rotations in rad, warping amplitudes times model_length, inner unknowns as the element
+ * defines). */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 void advance_settle(const model *, const linear_memory *, const model_state *);
@@ -142,8 +142,8 @@ typedef struct applied {
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
 /* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
- * the nodes of elements with linear shape functions, or with quadratic shape functions if there is
- * a middle node. */
+ * the nodes of elements with the polynomials through these nodes, but the loads of
+ * applied_with_mass with the shares of the mass. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
 
@@ -156,8 +156,8 @@ typedef struct newton_convergence {
     double stress; /* [N] largest stress on the path so far */
     double
         stress_change; /* largest change of a stress in the last correction, relative to `stress` */
-    /* last ratio of a correction, or of its relative change of stresses, to the square of the
-     * previous correction; NAN: none */
+    /* last ratio of the larger of a correction and its relative change of stresses to the square of
+     * the previous correction; NAN: none */
     double contraction;
     double remaining; /* predicted size of the next correction; NAN: unknown */
 } newton_convergence;
@@ -231,8 +231,8 @@ typedef struct outcome_spectrum {
 
 typedef struct outcome_path {
     int stations, reached; /* number of stations, and number of computed stations */
-    double *value;         /* [stations] path parameter or control coordinate */
-    model_state **state;   /* [stations]; NULL for a compliance */
+    double *value; /* [stations] path parameter, control coordinate, time [s] or frequency [Hz] */
+    model_state **state; /* [stations]; NULL for a compliance */
 } outcome_path;
 
 /* Compliance C and stiffness K of a node at one station. */
@@ -461,7 +461,7 @@ int shapes_frames(int most);
 
 typedef struct row_label {
     int node;   /* index in the scene; SCENE_NONE: node inside a member, or released end */
-    int member; /* index of the member; SCENE_NONE: node that is not inside a member */
+    int member; /* index of the member; SCENE_NONE: displacement or rotation of a node */
     /* position on the member relative to its length; NAN: `member` is SCENE_NONE */
     double along;
     double position[3]; /* undeformed position [m] */
@@ -557,7 +557,8 @@ typedef struct solve_options {
     int steps_between;
     int condition; /* 1: estimate the condition of the tangents (on a static path only at its
                       stations) */
-    /* smallest number of elements for which a member is condensed to its ends; 0: default */
+    /* members are condensed to their ends if the longest member has at least this number of
+     * elements; 0: default */
     int condensed;
     int phases; /* 1: measure the times of the parts of an iteration */
     /* N > 0: each static path has N measured iterations and no results; 0: off */
@@ -644,7 +645,7 @@ typedef struct step_record {
     double residual, correction, incompatibility; /* values of the last iteration */
     double remaining; /* predicted size of the next correction; NAN: unknown */
     int first;        /* index of the first iteration of the step in solve_result.iteration */
-    double energy;    /* r . K^-1 r in the first iteration [J] */
+    double energy;    /* |r . K^-1 r| in the first iteration [J] */
 } step_record;
 
 /* Compliance and stiffness of a node at stations of a path: [6 x 6] matrices in SI units. Rows and
@@ -723,7 +724,7 @@ void result_free(solve_result *);
 
 typedef struct context_work {
     double setup; /* [s] time for patterns and symbolic factorisation */
-    int singular; /* 1: the last factorisation failed */
+    int singular; /* 1: the matrix of the last factorisation was singular */
     /* factor for the pattern of the free coordinates, stored by an earlier analysis; NULL: none */
     matrix_factor *left;
 } context_work;
@@ -745,7 +746,7 @@ typedef struct analysis_context {
 /* Returns 1 if quantities, other analyses or the options require the analysis. */
 int context_runs(const analysis_context *, int analysis);
 /* Returns the context of an analysis, with its loading. During a motion, a load without a function
- * of time keeps its initial value. */
+ * of time keeps its value in the state from which the motion starts. */
 analysis_context context_of(const analysis_context *, int analysis);
 /* Like context_of, but with only the loads of a load case or a combination. */
 analysis_context context_under(const analysis_context *, int acting);
@@ -848,7 +849,7 @@ loading loading_of(const model *, int analysis);
 double loads_driver_value(const equations *, const scene_driver *d, double path);
 /* Computes the value of a driver and its first two time derivatives during a motion. At a
  * discontinuity of the function, they are those that follow it. A driver without a function of time
- * keeps its last value. */
+ * keeps its value in the state from which the motion starts. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* Adds to out[free + driven] the forces of the load in a state, multiplied by `scale`. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
@@ -961,13 +962,15 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
 /* Converts the C[6 x 6] of the tangent to the convention, and computes the inverse K[6 x 6] for the
  * possible motions. C must be complete in the components that can move. If the convention does not
  * change the stiffness, C is not modified. m[3]: moment on the node [N m]. Rows and columns of
- * fixed components are zero. SINGULAR: C is singular to working precision. */
+ * fixed components are zero. SINGULAR: C or the converted stiffness is singular to working
+ * precision. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 
 /* Extrapolates the state at `path` from the last `count` states, oldest first, with a polynomial (a
  * line through two states, a parabola through three, ...). Returns 0, without changing `out`, if
- * prescribed motions are nonlinear or the step is too long. */
+ * there are fewer than two states, prescribed motions or load factors deviate from the polynomial,
+ * or the step is too long. */
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
@@ -978,7 +981,7 @@ void history_drop_step(solve_result *r, const step_record *step);
 /* Sets the analysis of the steps from index `first` on, and the stability of the states at their
  * ends. */
 void history_evaluate_steps(solve_result *, const scene *, int analysis, int first);
-/* Sets the stability at a station where pivots are not conclusive, as found from the modes. */
+/* Sets the stability at a station where it is undecided, as found from the modes. */
 void history_evaluate_station(solve_result *, int analysis, double path, step_stability);
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
@@ -1070,7 +1073,8 @@ status internal_largest(const equations *, const internal_state *, int member, i
  * internal_at. */
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
-/* Computes the largest stress over all sections of the member. */
+/* Computes the largest stress (STRESS_NORMAL_MIN: the smallest) over all sections of the member.
+ * REFUSED: also if the axes of the sections rotate along the member. */
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
@@ -1094,7 +1098,9 @@ double linear_initial(const model *);
  * temperatures at `path`. The function does not apply to motions. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
-/* Computes G = sum sigma H + J^T G(sigma) J, including offsets. */
+/* Computes G = sum sigma H + J^T G(sigma) J, including offsets and springs, minus the stiffness of
+ * the loads. REFUSED: the formulation has a history, or the pattern is symmetric and a moment has
+ * no potential. */
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
                                   fault *);
 

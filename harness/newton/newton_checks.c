@@ -188,8 +188,8 @@ static status check_twist(const model *m, const model_state *s, fault *f)
         s->path);
 }
 
-/* Checks the rotation [rad] within an element: between neighbouring nodes, or relative to the chord
- * if the formulation uses sines. */
+/* Checks the rotation [rad] within an element: between its ends, and relative to the chord if the
+ * formulation uses sines. */
 static status check_elements(const model *m, const model_state *s, fault *f)
 {
     const int quarter = (model_type(m)->limits & LIMIT_QUARTER_TURN) != 0;
@@ -339,9 +339,9 @@ typedef struct correction_sizes {
     int growing;                 /* number of successive growing corrections */
 } correction_sizes;
 
-/* Limits of a correction (rotations in rad, translations relative to the size of the scene) above
- * which a step ends as NOT_CONVERGED. too_large_at_first applies to the first corrections of a
- * step. GROWING successive growing corrections also end the step. */
+/* Limits of a correction (rotations in rad, translations relative to model_length) above which a
+ * step ends as NOT_CONVERGED. too_large_at_first applies to the first corrections of a step.
+ * GROWING successive growing corrections also end the step. */
 static const double too_large = 4, too_large_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -47,12 +47,12 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
 /* Condenses members to their ends before the tangent is solved, and expands the solution. The
  * remaining system is as small as with one element per member. */
 
-/* Minimum number of elements of a condensed member. */
+/* Default of solve_options.condensed. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, or if the
- * members cannot be condensed (see the conditions in condensation.c). released[count]: prescribed
- * coordinates that are also unknowns. */
+/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, if there
+ * are more than MOST_ENDS end coordinates, or if the members cannot be condensed (see the
+ * conditions in condensation.c). released[count]: prescribed coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* Allocates a condensation with other released coordinates and the members of `of`, which must
@@ -62,22 +62,21 @@ status condensation_alloc_like(const condensation *of, int count, const int rele
 void condensation_free(condensation *);
 
 /* Computes the tangent, with condensed members, from the last linearise_state with the same
- * arguments. */
+ * arguments. SINGULAR: a member is in a critical state (chain_add, chain_stiffness). */
 status condensation_at(condensation *, const model_state *, double path, fault *);
 /* Computes the tangent with the members of `of` in its state. `of` remains their owner. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
 /* Returns the matrix of all end coordinates. */
 sparse *condensation_ends(condensation *);
-/* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric, or a member is in a critical
- * state. */
+/* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric. */
 status condensation_factor(condensation *, fault *);
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
 /* Creates a factor that uses the condensation for solutions. The factor owns the condensation. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* Condenses members with many elements (see condensation_alloc). *out is NULL if there are no such
- * members, or if the condition of the tangent of all coordinates was requested. */
+/* Condenses members if one has many elements (solve_options.condensed). *out is NULL as for
+ * condensation_alloc, or if the condition of the tangent of all coordinates was requested. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
 /* Like context_factor, for a tangent with condensed members. */
@@ -100,8 +99,8 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Returns 1 if nodal forces follow from the work of the load inside elements; 0: half of the load
- * on an element acts at each of its ends. */
+/* Returns 1 if nodal forces follow from the work of the load inside elements; 0: the load is lumped
+ * at the nodes, or does not act along a member. */
 int distributed_spreads(const equations *, const scene_load *);
 
 /* Returns 1 if the element includes the load in its equilibrium (element_type.along). Only dead
@@ -272,7 +271,8 @@ double refinement_part(int n, const double weight[], const double change[], cons
  * state. */
 int rotating_frame_lumps(const equations *);
 
-/* Computes the stiffness of the loads, for example of moments and of loads on offsets. */
+/* Computes minus the stiffness of the loads, which is their part of the tangent, for example of
+ * moments and of loads on offsets. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
@@ -291,8 +291,8 @@ typedef struct run_ahead {
 
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* bits of `what` */
 
-/* Evaluates the strains of all elements at the nodes of s. sigma[elements x strains]: needed for H.
- * Values are valid until ahead_end. */
+/* Evaluates the strains of all elements at the nodes of s if the type has strain_many without
+ * lanes. sigma[elements x strains]: needed for H. Values are valid until ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
 /* Evaluates sigma and C at e[elements x strains] with the histories of s; e NULL: at the strains of
  * the last evaluation. */
@@ -485,7 +485,7 @@ status link_of(const link_element *, chain_link *, fault *);
 /* Returns 1 if released ends or constraints make the undeformed structure with its supports a
  * mechanism. Sets *node to the node with the largest motion. If no node moves, sets *node to -1 and
  * *member to a moving member. motion: displacement [m] and rotation [rad], with an arbitrary
- * factor. */
+ * factor. Returns 0 without a check if there are more than 200 parts, or if out of memory. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 enum { SYMMETRIC_MOST = CHAIN_LINK };
@@ -500,9 +500,11 @@ typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* Returns the derivatives of an element. FAULT: out of memory. */
+/* Returns the derivatives of an element. FAULT: out of memory. Other statuses are those of the
+ * element. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* Evaluates missing elements together if the formulation can. Values are valid until ahead_end. */
+/* Before the first undeformed_of of a run, evaluates all elements together if the formulation can.
+ * Values are valid until ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif

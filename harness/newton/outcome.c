@@ -299,9 +299,9 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* Returns the stability of a state with an unsymmetric tangent. Without mass, the state is
- * unstable if an eigenvalue has crossed zero; with mass, if an odd number has. Otherwise
- * frequencies decide. */
+/* Returns the stability of a state with an unsymmetric tangent. Without mass, the state is unstable
+ * if an eigenvalue has crossed zero; with mass, if an odd number has. Otherwise, with mass,
+ * frequencies decide (`judged`). */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);
