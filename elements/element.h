@@ -160,8 +160,7 @@ typedef struct element_constants {
     int scalars;                           /* number of additional unknowns of a node */
 } element_constants;
 
-/* An element type. Optional members may be NULL or 0. Each of their comments ends with the
- * default. */
+/* An element type. Optional members may be NULL or 0. */
 typedef struct element_type {
     /* Required. */
     unsigned abi;     /* ELEMENT_ABI, required in files outside elements/ */

@@ -81,7 +81,7 @@ static inline unsigned feature_named(const char *name)
 }
 
 /* Writes the names of all features of `features` to words[size], separated by commas. Returns the
- * number of characters. */
+ * number of characters, or at least `size` if the text is truncated. */
 static inline int feature_words(unsigned features, char *words, int size)
 {
     int used = 0;

@@ -73,7 +73,8 @@ typedef struct point_fields {
 } point_fields;
 
 /* The rotation is the mean rotation rate times x - 1/2, plus the contributions of antisymmetric
- * bending and nonuniform twist. The shear strain at the shear centre is constant. */
+ * bending and nonuniform twist. The shear strain at the shear centre is a constant minus `lag`
+ * times the nonuniform part of the twist rate. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {

@@ -307,7 +307,7 @@ static inline real_truth beamw_equilibrium_solve(const beamw_condensed *d, beamw
     return good & (left == 0);
 }
 
-/* C_ee, half of C_ee, and the mixed second derivatives with respect to (z, e) and to (q, e). */
+/* B = du/de, C_ee, and the mixed second derivatives with respect to (z, e) and to (q, e). */
 typedef struct beamw_equilibrium_outside {
     real B[BEAMW_INTERNAL_U][BEAMW_STRAINS], C[BEAMW_STRAINS * BEAMW_STRAINS];
     real z[3 * BEAMW_STRAINS], q[3 * BEAMW_STRAINS];
@@ -451,8 +451,8 @@ static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beam
         sigma[d->linear[t].i] += d->linear[t].c * dual[d->linear[t].row];
 }
 
-/* Computes the outputs of element_type.stress. Returns the lanes in which an equilibrium was
- * found. */
+/* Computes the outputs of element_type.stress. Returns the lanes in which an equilibrium was found
+ * and, if C is requested, the Hessian is regular. */
 static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

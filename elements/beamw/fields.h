@@ -24,7 +24,7 @@ typedef struct beamw_twist {
 } beamw_twist;
 
 /* Returns the twist functions of an element of length l. `shear` is 0 if the section is rigid in
- * shear. If Iw = 0, there is no warping, and both kinds give cubic functions. */
+ * shear. If It or Iw is 0, both kinds give cubic functions. */
 beamw_twist beamw_twist_of(const section *c, double l, int shear, beamw_twist_kind kind);
 
 typedef struct beamw_twist_shapes {
@@ -94,7 +94,7 @@ status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
  * rotary inertia, the twist is linear between the nodes. If the nodes move as a rigid body, all
  * masses move as part of this body. */
 
-/* Adds M, taken, C and K at the rate in `out` to `out`. Only the upper half of M is set. The second
+/* Adds M, taken, C and K at the rate in `out` to `out`. The second
  * function is for processors with AVX2 and gives bit-for-bit identical results
  * (elements/math/real.h). */
 typedef void beamw_in_time(const beamw_spread *, const node_state x[2], inertia_output *out);

@@ -26,9 +26,8 @@ typedef struct moving_line {
     const beamw_spread *d;
     const node_state *x;
     inertia_output *out;
-    const double *w[NODES]; /* angular velocities */
-    double A[NODES]
-            [9]; /* f'' = A f for a vector f that is fixed to a node without angular acceleration */
+    const double *w[NODES];   /* angular velocities */
+    double A[NODES][9];       /* A of the head: f'' = A f for a vector f that is fixed to a node */
     double n[NODES][AXES][3]; /* unit vectors */
     double m[AXES][3], m_rate[AXES][3];
     double e[MODES], rate[MODES], second[MODES]; /* modes and their time derivatives */
@@ -192,7 +191,7 @@ static void add_taken(moving_line *c, const line_point *p)
     }
 }
 
-/* Sets T to -v~ in the columns of the rotations of a node. */
+/* Adds -size v~ to T in the columns of the rotations of a node. */
 static void add_turn(double size, const double v[3], int node, row T[3])
 {
     double A[9] = {0};

@@ -34,7 +34,7 @@ enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
 
 /* A vector y = lin(v) + sum of sign m_k (field . e), where v is a vector of the nodes. */
 typedef struct beamw_inertia_vector {
-    int director; /* index of a unit vector, or one of the constants above */
+    int director; /* index of a unit vector, POSITION, or NOTHING if there is no v */
     int terms;
     struct {
         int k, field;

@@ -33,8 +33,8 @@ static void axis_of(const node_state *x, const double w[3], int k, double v[3], 
     vec3_cross(w, v, turns);
 }
 
-/* Computes the gradient of c n . v, where v is an axis of the node whose rotations begin at
- * coordinate `rotation`. */
+/* Computes the time derivative of the gradient of c n . v, where v is an axis of the node whose
+ * rotations begin at coordinate `rotation`. */
 static void bending(const chord *d, double c, const node_state *x, int k, int rotation,
                     const double rate[N], double row[N])
 {

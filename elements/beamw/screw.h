@@ -12,7 +12,7 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/lanes.h"
 
-/* Positions of mu, nu and tau = tan(|a|/2)/|a| in `factors`. Each is followed by its derivatives
+/* Positions of mu, nu and tau = tan(|a|/2)/|a| in screw.f. Each is followed by its derivatives
  * with respect to |a|^2. */
 enum { SCREW_MU, SCREW_NU = 2, SCREW_TAU = 5, SCREW_FACTORS = 7 };
 
@@ -226,7 +226,7 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
 /* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
  * chart. */
 
-/* Blocks of a form. */
+/* Blocks of a symmetric form in v, s and delta. */
 typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;

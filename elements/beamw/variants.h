@@ -193,8 +193,8 @@ typedef enum beamw_prepare_modes {
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
-/* Data of an element prepared by beamw_prepare_consistent.
- *  */
+/* Data of an element prepared by beamw_prepare_consistent. `condensed` is 1 if the internal modes
+ * depend on the stress. */
 typedef struct beamw_consistent_data {
     element_data variant;
     int condensed;

@@ -58,7 +58,8 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Computes the corrections for a curved line. */
+/* Computes `missed` for a curved line: the integral over the line minus the quadrature at the Gauss
+ * points. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {

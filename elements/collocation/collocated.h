@@ -25,7 +25,7 @@ static inline int exact_variables_block(int stages, int i, int *component)
     return stages + outer / 3;
 }
 
-/* Computes the symmetric matrix [n x n] of n variables from the blocks A. */
+/* Computes the symmetric matrix [n x n] of the first n variables from the blocks A. */
 void exact_variables_matrix(int stages, double A[][9], int n, double matrix[]);
 
 /* Eliminates the unknowns with row exchange, for matrices for which the elimination of sums.h would

@@ -31,10 +31,11 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* First part of the element_data of collocation elements. The variables are x of the inner nodes,
- * then 2 X, half of which belongs to each end node. */
+/* First part of the element_data of collocation elements. The interpolated variables are x of the
+ * inner nodes, then 2 X (x is -X at p and X at q). */
 typedef struct exact_stages {
-    int stages, unknowns; /* number of stages, and of the unknowns F (3) and x of the inner nodes */
+    int stages,
+        unknowns; /* number of Gauss points, and of the unknowns F (3) and x of the inner nodes */
     beam_constants c;
     exact_strain_line line;
     double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_MAX],
@@ -59,7 +60,8 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
 
 /* Data of a kind of element. q is given at the points of element.h. */
 typedef struct exact_along {
-    double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
+    double at[EXACT_STAGES_MAX]
+             [ELEMENT_ALONG_POINTS]; /* weights of q in g at the Gauss points [m] */
     double missed[ELEMENT_ALONG_POINTS]
                  [3]; /* part of the work on the undeformed line that the quadrature at the stages
                          omits [m^2]; it rotates with G */

@@ -43,9 +43,9 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
-/* Computes M times the change of (kappa, N) due to a change of the variables, at point i of the
- * undeformed element. The terms in which N stiffens torsion use the change of N itself. Returns the
- * change of the argument of the warping energy. */
+/* Computes N, its change due to a change of the variables, and `moment`, the change of the moments,
+ * at point i of the undeformed element with the Hessian M. The terms in which N stiffens torsion
+ * use the change of N itself. Returns the change of the argument of the warping energy. */
 static double moments(const exact_stages *s, int i, const exact_stage *p,
                       const exact_stage_material *M, const double change[], const double force[3],
                       double moment[3], double N[3])

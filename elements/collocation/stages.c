@@ -40,8 +40,8 @@ static void less_initial_strain(const element_request *request, double v[3])
         v[i] -= middle[i];
 }
 
-/* Computes the curvatures at the points and the vector between the ends, for the stress-free
- * element. */
+/* Computes the curvatures and axes at the points, and the vector between the ends, for the
+ * stress-free element. */
 static void rest_of_points(const element_request *request, exact_stages *out)
 {
     const double strained[3] = {1 + request->strain[0], request->strain[1], request->strain[2]},

@@ -93,8 +93,8 @@ static inline __attribute__((always_inline)) void exact_blocks_solve(int rows, i
     }
 }
 
-/* Returns 1 if all pivots d of one lane are positive except for the last three, and these are
- * negative. A pivot lost in round-off is neither positive nor negative. */
+/* Returns 1 if, in one lane, all pivots d except the last three are positive beyond round-off, and
+ * the last three are negative. */
 static inline int exact_blocks_definite(int rows, real A[][9], const real d[], int lane)
 {
     const double lost = 1e-9;

@@ -102,8 +102,9 @@ enum { FIELD_INNER = 2 * NODE_COORDINATES };
  *   min over r: int s . C s dx, s = s_p v + s_r r,
  * where the resultants s_p are in equilibrium with these inertia forces, and s_r are due only to
  * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. Its unit is
- * kg s^2, multiplied by m for each rotation. B is zero for sections with coupled matrices and if a
- * stiffness is zero. */
+ * kg s^2, multiplied by m for each rotation. B is zero for more than two nodes, for matrices with
+ * off-diagonal entries, if EA, EIy, EIz or GIt is zero, and if the equations for s_r are singular.
+ */
 void field_inner(const element_request *, const displacement_field *,
                  double B[FIELD_INNER * FIELD_INNER]);
 

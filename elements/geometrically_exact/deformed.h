@@ -38,7 +38,7 @@ typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
     real a[12];            /* matrix a [4 x 3] */
     real kappa[9], v[9];   /* derivatives of kappa and v with respect to theta, stored by rows */
-    real twice[12], by[9]; /* right factors of the products in exact_point_second */
+    real twice[12], by[9]; /* factors of the products in exact_point_add_second */
 } exact_point_turn;
 
 /* Computes ab = a^-1 o b. */
@@ -125,8 +125,8 @@ static inline void exact_point_first(const exact_point *p, const real q[4], doub
     exact_point_add_cross(p->v, turned, real_of(2 * N), t->v);
 }
 
-/* Computes the factors of the second derivatives of n . kappa + f . v that exact_point_add_second
- * needs for all nodes. */
+/* Computes the factors, for one node, of the second derivatives of n . kappa + f . v in
+ * exact_point_add_second. */
 static inline void exact_point_second(const exact_point *p, const real n[3], const real f[3],
                                       exact_point_turn *t)
 {
@@ -225,8 +225,8 @@ static inline void exact_deformed_observe(int nodes, const exact_strain_line *li
     exact_point_at(nodes, s->q, line->N[g], line->dN[g], y, p);
 }
 
-/* Computes v - v0. The x component is computed from |v|^2 - |v0|^2 = (2 y0 + dy) . dy, which avoids
- * cancellation for small elongations. */
+/* Computes v - v0. If v_x + v0_x > 1, the x component is computed from |v|^2 - |v0|^2 = (2 y0 + dy)
+ * . dy, which avoids cancellation for small elongations. */
 static inline void exact_deformed_stretch(const real v[3], const double v0[3], const real y[3],
                                           const real dy[3], real e[3])
 {

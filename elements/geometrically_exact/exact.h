@@ -65,9 +65,9 @@ static inline void exact_measure_second(const real m[3], const real x[3], const 
 
 /* Strains of the Simo-Reissner beam at points of an element, computed from interpolated quaternions
  * of the nodes (deformed.h). From e[6 g] on, the strains of point g are l0 gamma (3) with gamma =
- * R^T r' - e_x, and l0^2 kappa (3). From e[6 points] on, the strains are l0^2 a of each node. All
- * strains are in [m] and are relative to their values in the undeformed state, which may be
- * curved. */
+ * R^T r' - e_x, and l0^2 kappa (3), where l0 kappa is the rotation measure of the line. From e[6
+ * points] on, the strains are l0^2 a of each node. All strains are in [m] and are relative to their
+ * values in the undeformed state, which may be curved. */
 
 enum { EXACT_MAX_NODES = 3, EXACT_STRAIN_MAX_POINTS = 2 };
 
@@ -76,11 +76,11 @@ typedef struct exact_strain_line {
     double l0; /* [m] */
     exact_measure_kind rotation;
     double N[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES],
-        dN[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES]; /* dN is divided by l0 */
+        dN[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES]; /* dN: derivatives with respect to x/l0 */
     double initial[EXACT_STRAIN_MAX_POINTS]
-                  [3]; /* R^T r' minus `rest`, in the stress-free element */
-    double rest[EXACT_STRAIN_MAX_POINTS]
-               [6]; /* R^T r' and l0 kappa in the undeformed element, dimensionless */
+                  [3];                       /* R^T r' minus `rest`, in the stress-free element */
+    double rest[EXACT_STRAIN_MAX_POINTS][6]; /* R^T r' and the rotation measure on the arc without
+                                                initial strain, dimensionless */
 } exact_strain_line;
 
 /* Prepares Gauss points between evenly spaced nodes, for constant initial curvature [1/m] and
@@ -101,9 +101,9 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  *   - The part of the bending moment that the polynomial through the points does not represent.
  *     With two nodes it is the linear part (MacNeal's residual bending flexibility). The element
  *     is then exact for end loads in linear problems, even if it is rigid in shear. With three
- *     nodes it is the quadratic part (derived here), only for sections that are rigid in shear,
- *     which would otherwise have no shear flexibility. This part is computed from the difference
- *     between Q and the slope of M in section axes. */
+ *     nodes it is the quadratic part (derived here), only for sections that are rigid in shear
+ * along y or z, which would otherwise have no shear flexibility. This part is computed from the
+ * difference between Q and the slope of M in section axes. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + EXACT_MAX_NODES,
@@ -113,7 +113,7 @@ enum {
 typedef struct exact_stiffness {
     int strains, points, field;
     double l0;
-    int modified;                                                        /* 0 if ebar equals e */
+    int modified; /* 0 if the energy is 1/2 e . S e */
     double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
     /* Number and indices of the strains on which the twist rate depends; position of a strain in
      * `place`, or -1. */
@@ -123,7 +123,7 @@ typedef struct exact_stiffness {
                                               form in these strains [1/m] */
     double r[3];                           /* factors of gamma_x, kappa_y, kappa_z at the
                                             * point */
-    double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
+    double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of (l0^2 kappa_x)^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
                 [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e, summed over the strains
                                                   in `place` */
@@ -183,8 +183,8 @@ int exact_fields_eliminate(const exact_fields *f, double X[]);
 
 /* Computes S [strains x strains] [N/m] for Gauss points that each represent a part of the element.
  * With one point, the moment is linear along the element with the slope M' = -e_x x N. This slope
- * adds the flexibility int M' . (C^-1) M' to the flexibility of the forces, so end loads are
- * represented exactly. Warping amplitudes have no stiffness. */
+ * adds M' . (C^-1)_kk M'/12 to the flexibility of the forces, so end loads are represented exactly.
+ * Warping amplitudes have no stiffness. */
 status exact_coupled_stiffness(const beam_constants *c, int points, int strains, double length,
                                double S[], fault *f);
 

@@ -106,8 +106,9 @@ static void twist_fields(exact_fields *f)
             }
 }
 
-/* Adds -1/2 w/(k EI) (Q -+ M')^2. This is the flexibility for the part of the moment that the
- * polynomial through the points, with the slope M', does not represent. */
+/* Adds -1/2 w/(k EI) (Q -+ M')^2, where k is 12 for one point and 60 for two. This is the
+ * flexibility for the part of the moment that the polynomial through the points, with the slope M',
+ * does not represent. */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
     double row[EXACT_FIELDS_MAX_ALL] = {0};
@@ -121,7 +122,7 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Shear forces act at the shear centre. */
+/* Adds the energy of a Gauss point, where shear forces act at the shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;

@@ -14,8 +14,8 @@ enum { WIDTH = 2 };
 typedef double part __attribute__((vector_size(WIDTH * 8)));
 enum { PARTS = CONGRUENCE_WIDEST / WIDTH };
 
-/* Adds the sum over l of c[l stride] times row l of B[count x blocks] to two rows of out[.. x
- * blocks]. */
+/* Adds the sum over l of c[l stride] times row l of B[count x blocks] to the first row of out[2 x
+ * blocks], and the sum with c[next + l stride] to the second. */
 static inline __attribute__((always_inline)) void
 two_rows(int count, int blocks, const double *c, int next, int stride, const part *B, part *out)
 {

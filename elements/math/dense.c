@@ -8,9 +8,9 @@
 
 enum { WIDEST = 14 };
 
-/* Adds the sum over l of c[l stride] times row l of `rows` (row length n) to `out`, in ascending l.
- * If the width is a compile-time constant, sums stay in registers. `skip` omits rows whose factor
- * is zero. */
+/* Adds the sum over l of (times c[l stride]) times row l of `rows` (row length n) to `out`, in
+ * ascending l. If the width is a compile-time constant, sums stay in registers. `skip` omits rows
+ * whose factor is zero. */
 static inline __attribute__((always_inline)) void add_block(int count, int width, double times,
                                                             int skip, const double *restrict c,
                                                             int stride, const double *restrict rows,

@@ -22,7 +22,8 @@ void dense_widen(int n, int wide, double K[]);
 
 /* Replaces A (n x n) by the mean of A and its transpose. Returns the largest difference of two
  * opposite entries, divided by the square root of the product of their diagonal entries. Returns 0
- * if A is symmetric, and INFINITY if such a diagonal entry is zero. */
+ * if A is symmetric. Returns INFINITY if two opposite entries differ and a diagonal entry of theirs
+ * is zero or the difference is not finite. */
 double dense_symmetrise(int n, double *A);
 /* Computes the Cholesky factorisation A = L L^T in place (lower triangle, n x n). Returns 0, or 1 +
  * the index of the pivot that fails. */
@@ -30,7 +31,7 @@ int dense_cholesky(int n, double *A);
 /* Solves L L^T X = B(n x m) in place. */
 void dense_cholesky_solve(int n, int m, const double *L, double *B);
 /* Computes the LU factorisation with partial pivoting in place. pivot[n]: rows that were exchanged.
- * Returns 0, or 1 + the index of the zero pivot. */
+ * Returns 0, or 1 + the index of the first pivot that is zero or not finite. */
 int dense_lu(int n, double *A, int pivot[]);
 /* Computes the factorisation of dense_lu, but treats a pivot as zero if it is only a rounding error
  * of the terms from which it was computed. */

@@ -80,8 +80,9 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-/* Replaces M by the nearest mass matrix of a slice. Returns 0 if the difference is larger than
- * expected for measured or printed values. */
+/* Replaces M by the nearest mass matrix of a slice. Returns 0 if the difference exceeds
+ * SECTION_MATRICES_SYMMETRIC, if the mass is negative, or if a centre of mass is given without
+ * mass. */
 static int make_slice(double M[36])
 {
     const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,

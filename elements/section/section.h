@@ -32,8 +32,8 @@ typedef struct section {
                              represent. c = w^5 t/1440 for a sheet (N Eq. 46) */
     double D[9]; /* shear rigidities divided by G, in the order y, z, omega [m^2, m^2, m^4; m^3 off
                     the diagonal]: (Qy, Qz, Mw) = G D (gy, gz, gw) */
-    double F[9]; /* inverse of D, which exists even for a section that is rigid in shear (F = 0, D
-                    infinite) */
+    double F[9]; /* inverse of D in the same order. Rows of shear strains in which the section is
+                    rigid are zero in both D and F */
     double axes_angle;  /* angle beta [rad] from the y axis of the walls to the principal y axis */
     double centroid[2]; /* position in the coordinates of the walls [m] */
     int matrices;       /* 1 for a section given by matrices */
@@ -77,7 +77,7 @@ typedef struct section_spec {
     unsigned zeros;                       /* SECTION_ZERO_... */
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
-    int cells; /* number of cells that the walls close; additional cells are rejected */
+    int cells; /* number of cells that the walls close; any other number is rejected */
     double point[SECTION_MAX_POINTS][2]; /* (y, z) [m] */
     struct {
         int from, to;
@@ -92,10 +92,11 @@ typedef struct section_spec {
     double expansion;  /* [1/K] */
     double diameter, wall_thickness; /* outer diameter and wall thickness of a tube [m]; the
                                         thickness of a solid bar is half its diameter */
-    section constants; /* constants to be used for SECTION_CONSTANTS, where D or F is required, or
-                          stiffness and mass for SECTION_MATRICES, without a material */
-    /* Values that replace computed values, or NAN where the computed value is used. If Ip is not
-     * given, it is Iy + Iz. */
+    section
+        constants; /* constants to be used for SECTION_CONSTANTS, with D or F (both zero: rigid in
+                      shear), or stiffness and mass for SECTION_MATRICES, without a material */
+    /* Values that replace computed values, or NAN where the computed value is used. If Iy or Iz is
+     * given without Ip, Ip is Iy + Iz. */
     struct {
 #define SECTION_MEMBER(name) double name;
         SECTION_GIVEN(SECTION_MEMBER)
@@ -117,9 +118,10 @@ section_spec section_spec_walls(double young, double shear_modulus, int walls,
                                 const double point[][2], const int ends[][2],
                                 const double thickness[]);
 
-/* Computes the constants. Returns STATUS_REFUSED with the cause if dimensions are zero or negative,
- * if there are too many cells, disconnected walls or unused points, if D is not positive definite,
- * if G or E is not positive, or if a value is NaN. */
+/* Computes the constants. Returns STATUS_REFUSED with the cause if a value is not finite, if a
+ * dimension, E, G, A, Iy, Iz or Ip is not positive, if rho, It or Iw is negative, if walls are
+ * invalid (walls_lines_of) or D or F is not positive definite, if A, Iy, Iz or beta is given for a
+ * section without walls, or if section_matrices rejects the matrices. */
 status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by two row-major matrices. For the strains of the Simo-Reissner beam along the
@@ -137,16 +139,16 @@ status section_compute(const section_spec *spec, section *out, fault *f);
  * diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
-/* Fills a zeroed section. Returns REFUSED if C is not symmetric or not positive definite, or if M
- * is not the mass matrix of a slice. Such a matrix is [m 1, -m c~; m c~, J] with the mass m, the
- * centre of mass c = (0, cy, cz) and nonnegative moments of inertia about this centre. Deviations
- * within SECTION_MATRICES_SYMMETRIC are corrected. */
+/* Fills a zeroed section. Returns REFUSED if an entry is not finite, if C or M is not symmetric, if
+ * C is not positive definite, or if M is not the mass matrix of a slice. Such a matrix is [m 1, -m
+ * c~; m c~, J] with the mass m, the centre of mass c = (0, cy, cz) and nonnegative moments of
+ * inertia about this centre. Deviations within SECTION_MATRICES_SYMMETRIC are corrected. */
 status section_matrices(const section_spec *spec, section *out, fault *f);
 
 /* Returns 1 if the matrices contain more than constants can represent. This is the case for
- * off-diagonal entries of C. If `inertia` is 1, this is also the case for off-diagonal entries of M
- * and for certain moments of inertia: values that differ from those of a section of one material
- * (rotary 1), or any value except Jxx (rotary 0). */
+ * off-diagonal entries of C. If `inertia` is 1, this is also the case for off-diagonal entries of
+ * M, for Jxx = 0, and for Jyy and Jzz that differ from those of a section of one material (rotary
+ * 1) or from zero (rotary 0). */
 int section_matrices_couple(const section *c, int inertia, int rotary);
 
 /* Computes the centre of mass [m], which is (0, 0, 0) if the section has no mass. */
@@ -161,9 +163,10 @@ void section_matrices_centre(const section *c, double centre[3]);
 /* Checks that a taper between the two descriptions is possible. `ends` contains the constants of
  * both descriptions. Returns REFUSED if the descriptions have different forms, for example a
  * rectangle and walls, differently connected walls, or D in one description and F in the other.
- * Sections with warping are also rejected if the shear centre moves, walls leave their planes, or
- * closed cells differ. The sectorial coordinate of a fibre would then change along the member and
- * couple warping with torsion, which prismatic elements cannot represent. */
+ * Two different given areas are rejected. Sections with warping are also rejected if the shear
+ * centre moves, the principal axes rotate, walls leave their planes, or closed cells differ. The
+ * sectorial coordinate of a fibre would then change along the member and couple warping with
+ * torsion, which prismatic elements cannot represent. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

@@ -98,7 +98,8 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
 }
 
 /* Adds the fibre where the outer surfaces of walls v and w meet at point `at`. The warping is
- * continued from wall v. The shear stress is zero at the fibre. */
+ * continued from wall v. The shear stress is zero at the fibre. Adds nothing if the walls are
+ * nearly parallel. */
 static void add_corner(const wall_flow *of, int at, int v, int w, stress_points *out)
 {
     const section_spec *s = of->spec;

@@ -1,8 +1,8 @@
 /* Stresses at points of a section, computed from its resultants.
  *
  * The normal stress along the fibres is N/A - Mz y/Iz + My z/Iy - B omega/Iw. If the Wagner torque
- * is active, the stress due to the rotation of a fibre about the shear centre is added, relative to
- * its mean over the section.
+ * is active, the stress due to the rotation of a fibre about the shear centre is added, without its
+ * resultants N, My and Mz.
  *
  * The shear stress contains the following terms:
  *   - Saint-Venant torsion: the exact series for rectangles, G t kappa at the surfaces of walls,
@@ -50,8 +50,9 @@ typedef enum stress_measure {
 /* Computes the stress points. The points of a rectangle are the corners, the midpoints of sides,
  * and the centre. The points of a wall are on both surfaces, at the ends, in the middle, and where
  * y, z or omega is zero, which is where the shear flow is largest. The outer corner where two walls
- * meet is added. `constants` must be computed from the description. Returns REFUSED for a section
- * given by constants or matrices, which has no points. */
+ * meet is added, unless they are nearly parallel. `constants` must be computed from the
+ * description. Returns REFUSED for a section given by constants or matrices, which has no points,
+ * and for invalid walls. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
 /* Returns the largest von Mises stress, or the largest or smallest normal stress, of all points

@@ -32,11 +32,12 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
               FEATURE_ROTARY_INERTIA | FEATURE_COUPLED
 
 /* Sets out->C, the stiffness of (gamma, kappa), and out->mixed, which expresses gamma by the force,
- * for a section given by matrices. Both are made dimensionless by EI [N m^2]. */
+ * for a section given by matrices. Both are made dimensionless with l0 [m] and EI [N m^2]. Returns
+ * REFUSED if the block of gamma in C cannot be inverted. */
 status beam_coupled_of(const section *profile, double l0, double EI, beam_constants *out, fault *f);
 
 /* Computes the inverse of a symmetric positive definite matrix [n x n], n <= 6. Returns 0, or the
- * number of the pivot that fails. */
+ * number of the pivot that fails, counted from 1. */
 int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
 /* Returns REFUSED unless the length [m] of the element is finite and positive. */

@@ -46,7 +46,8 @@ enum {
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
     int relative; /* 1 if the element has two nodes and only the difference of their positions
-                     matters; J and H of one node are then minus those of the other, bit for bit */
+                     matters; the entries of J and H for the position of one node are then minus
+                     those for the other, bit for bit */
 } lanes_sizes;
 
 static inline int lanes_run(int count, const element_data *const data[])
@@ -146,7 +147,7 @@ lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_dat
 }
 
 /* Evaluates the stresses of a run, with e[run] and inner[run]. Elements that cannot be evaluated
- * write nothing and return `failure`. */
+ * write nothing, and their outcome is `failure`. */
 static inline __attribute__((always_inline)) void
 lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                  const element_data *data, const double *const e[], const double *const inner[],

@@ -147,8 +147,9 @@ static void add_vector(lumped_mass *l, double mass, const double a[3])
     }
 }
 
-/* Masses of either sign on unit vectors represent the inertia J about the centre: A = (tr J/2) 1 -
- * J = sum_i (A_ii - sum_j A_ij) e_i e_i^T + sum_i<j A_ij (e_i + e_j)(e_i + e_j)^T. */
+/* Masses of either sign on the vectors e_i and e_i + e_j represent the inertia J about the centre:
+ * A = (tr J/2) 1 - J = sum_i (A_ii - sum_(j != i) A_ij) e_i e_i^T + sum_i<j A_ij (e_i + e_j)(e_i +
+ * e_j)^T. */
 static lumped_mass of_matrices(const section *c, double length)
 {
     lumped_mass out = {.mass = c->mass[0] * length, .turns = 1};
@@ -228,7 +229,7 @@ static void add_rotation(const lumped_mass *l, double share, const node_state *x
 }
 
 /* Adds the inertia of warping, which moves the section along its normal by -omega a. This inertia
- * is that of a vector a n_X with the mass rho Iw, even in a rotating frame. */
+ * is that of a vector a n_X with the mass int rho Iw ds, even in a rotating frame. */
 static void add_warping(double mass, const node_state *x, const element_rotating_frame *frame,
                         int at, int n, inertia_output *out)
 {

@@ -188,7 +188,7 @@ typedef struct sheet_wagner_term {
                [SHEET_WAGNER_STRAINS]; /* kx for a unit value of e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
-/* Rejects its combination with initial torsion. */
+/* Prepares the term. Returns REFUSED if the term is active and the element has initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
 /* Adds the Wagner torque to energy[1], sigma[8] and C[8 x 8], each of which may be NULL, for one
