@@ -213,7 +213,7 @@ def turning(kind, M, x, frame):
 
 
 def in_time(kind, M, x, rate, acceleration, tangents):
-    """Returns taken, C and K of the elements x[N, n, 16], computed by Lagrange's equations for the energy x' M x'/2."""
+    """Returns taken and, with tangents, C and K of the elements x[N, n, 16]: Lagrange's equations for x' M x'/2."""
     N, c = rate.shape
 
     def momentum(*at):
@@ -347,7 +347,7 @@ def answers(what, mask, kind, body, said, functions):
 
 
 def prepared(body, kinds, said, functions):
-    """Returns the body of the answer to a prepare request."""
+    """Returns the arrays of the answer to a prepare request."""
     number, kind = described(body, said)
     kinds[number], C = kind, functions["prepare"](kind)
     if "force" not in functions and C is None and "stress" not in functions:
@@ -362,7 +362,7 @@ def prepared(body, kinds, said, functions):
 
 
 def answer(what, mask, count, body, kinds, said, functions):
-    """Returns the body of the answer to any request."""
+    """Returns the arrays of the answer to any request."""
     if what == 1:
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)

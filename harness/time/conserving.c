@@ -10,7 +10,8 @@
 #include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
-/* Finds the rotations without inertia. REFUSED: no rotation has inertia. */
+/* Finds the rotations without inertia. REFUSED: rotations of masses are free, but none has inertia.
+ */
 static status conserving_massless(conserving *, fault *);
 static void conserving_rates(conserving *, const motion_state *from, double h, motion_state *to);
 
@@ -364,8 +365,8 @@ static void angle_rates(const model *m, int vertex, motion_state *to, const doub
 }
 
 /* Replaces the rates of motions without inertia by the mean rates of the step; otherwise they would
- * change sign in every step. N[9]: projection onto the rotations without inertia; NULL: there are
- * none. */
+ * change sign in every step. N[9]: projection onto the rotations without inertia; NULL: no rotation
+ * has inertia. */
 static void without_inertia(const frame_mass *one, const double N[9], frame_mass_step *p)
 {
     double mean[3], back[3];

@@ -28,9 +28,9 @@ static void middle_of(const conserving *s, deformable_values *v)
         v->middle[k] += 1 / s->h * Wd[k];
 }
 
-/* Computes the gaps and sigma_m. sigma_m contains the contribution of the gaps unless they are
- * rounding errors. Returns the incompatibility: the largest gap of the strains, divided by the
- * reference length. */
+/* Computes the gaps and sigma_m. sigma_m contains the contribution of the gaps unless s->settled is
+ * 1, when the gaps are rounding errors. Returns the incompatibility: the largest gap of the
+ * strains, divided by the reference length. */
 static double gaps_of(const conserving *s, const double J[], deformable_values *v, double sigma[])
 {
     const deformable *of = &v->of;
@@ -378,7 +378,7 @@ status conserving_work(conserving *s, const motion_state *from, motion_state *to
                        fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* number of iterations after which conserving_stresses uses k */
+    const int behind = 3; /* first iteration in which conserving_stresses uses k */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);

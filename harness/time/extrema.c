@@ -57,7 +57,7 @@ static void take(extremum *one, double value, double time, double error)
 }
 
 /* Computes the value at a time inside the step that starts at `from`, by a probe step. *known 0:
- * the probe step did not converge. */
+ * the probe step or the reading failed. */
 static status beside(extrema *s, const scene_quantity *q, const motion_state *from, double time,
                      double *value, int *known, fault *f)
 {

@@ -214,7 +214,7 @@ static int first_of(const model *m, int vertex)
 }
 
 /* Adds an element with consistent mass: the entries of the nodes that the body moves and of the
- * ends released from them. Returns the largest mass of a node. */
+ * ends released from them. Returns the largest sum of the three translational masses of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {

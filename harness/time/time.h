@@ -131,7 +131,7 @@ struct motion_scheme {
     dense_output_degree
         degree; /* interpolation inside a step; quintic if accelerations are as accurate as rates */
     /* Makes a step of h [s]. *error: estimated error of the positions, with the norm of
-     * metric_distance. NOT_CONVERGED: */
+     * metric_distance. NOT_CONVERGED: a smaller step may succeed. */
     status (*step)(motion_scheme *, const motion_state *from, double h, motion_state *to,
                    double *error, step_record *, fault *);
     void (*free)(motion_scheme *);
@@ -139,7 +139,9 @@ struct motion_scheme {
 
 /* Energy-balance error relative to the energy of the motion. */
 
-enum { ACCOUNT_STEPS = 10 }; /* number of first steps whose energy is too small for a check */
+enum {
+    ACCOUNT_STEPS = 10
+}; /* number of steps after the start or a discontinuity in which the energy is not checked */
 /* Limits relative to account_size: unexplained energy gain that stops a motion, energy loss that is
  * reported, and energy loss that stops a motion, unless its steps are fixed or rho_inf is below 0.9
  */
@@ -173,8 +175,8 @@ void feedback_signals(const equations *, const model_state *, int load, double p
                       double measured[]);
 
 /* Checks before any analysis runs that the integrator supports the formulation, the form of
- * Newton's method, the damping and the kind of mass, and that the values of all drivers are
- * known. */
+ * Newton's method, the damping and the kind of mass, that the coordinates of the nodes determine
+ * their orientations, and that the values of all drivers are known. */
 status motion_check(const analysis_context *, int analysis, fault *);
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Returns the end of another run that the motion continues; NULL: none. */

@@ -40,8 +40,8 @@ double work_trapezoid(outer_work *, const motion_state *from, const motion_state
 double account_most(const account *, double part, double rounding);
 
 /* Checks the energy balance. NOT_CONVERGED: the unexplained gain exceeds account_gained, or the
- * loss exceeds account_lost, unless steps are fixed or rho_inf is below 0.9. rounding [J]: see
- * balance_rounding. */
+ * loss exceeds account_lost although steps are not fixed and rho_inf is at least 0.9. rounding [J]:
+ * see balance_rounding. */
 status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
@@ -140,7 +140,8 @@ typedef struct body_mass {
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Computes the mass matrix of a body in a state; for the first of several connected bodies, that of
- * all of them. Returns the largest mass of a frame or node [kg]. */
+ * all of them. Returns the largest mass of a frame, or three times the mass of a node with
+ * consistent mass if this is larger [kg]. */
 double body_mass_of(const model *, const frame_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -394,7 +395,7 @@ typedef struct conserving {
         /* missing: residual of the equation for k, sum of k_e . gap_e + k_d . gap_d */
         missing;
     int settled;
-    int wild;               /* 1: k was too large and is not used */
+    int wild; /* 1: k was too large although energy is missing; the step is rejected */
     double largest, change; /* stresses */
     newton_convergence newton_convergence;
     long counted;
@@ -402,7 +403,8 @@ typedef struct conserving {
 
 /* Computes the energies, and the data of the springs, at the start of the step. */
 status conserving_begin(conserving *, const motion_state *from, fault *);
-/* Computes the stresses for the current strains, and k. k is 0 until it is reliable. */
+/* Computes the stresses for the current strains, and k. k is 0 in iterations 1 and 2, if nothing
+ * moves, and if it would be too large. */
 status conserving_stresses(conserving *, const motion_state *from, model_state *now, int iteration,
                            fault *);
 /* Updates the strains at the end of the step and d, for the increments dx. Returns the largest
@@ -487,7 +489,8 @@ void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cay
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Checks the treatment of massless coordinates. */
+/* Checks massless coordinates. REFUSED: there are some, and the scheme is generalized-alpha with
+ * alpha_f <= alpha_m, as for rho_inf = 1. */
 status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
@@ -587,8 +590,8 @@ typedef struct explicit_scheme {
     double *inc, *residual; /* [free + driven] */
     double *memory,
         *still; /* memory of one element (its type defines the size); zero increments of strains */
-    double power;             /* [W] power of dashpots */
-    double *weight;           /* [free + driven] weights as in model.h */
+    double power;   /* [W] power absorbed by dashpots and by springs without a potential */
+    double *weight; /* [free + driven] weights as in model.h */
     const motion_state *from; /* start of the current step */
     double end;               /* [s] latest time at which loads are read */
     motion_state *at;         /* state of the last evaluation */
@@ -597,8 +600,8 @@ typedef struct explicit_scheme {
 } explicit_scheme;
 
 /* Extent and rate of the motion so far. Tolerances of steps are relative to the largest motion so
- * far, or to an estimate of the largest motion if this is larger. The first estimate is 2 % of the
- * size of the structure. */
+ * far (at most the size of the structure), or to an estimate of the largest motion if this is
+ * larger. The first estimate is 2 % of the size of the structure. */
 
 typedef struct extent {
     model_state *begin; /* initial state */
@@ -613,7 +616,8 @@ typedef struct extent {
         /* error of a step divided by the power of its size given by the order of the scheme
          * (extent_error) */
         density;
-    double worst; /* largest ratio of the error of an accepted step to its allowed error */
+    double worst; /* largest error of an accepted step, divided by the share of the step in the
+                     whole motion if errors add up */
 } extent;
 
 /* Initial estimate of the largest motion. */
@@ -680,8 +684,8 @@ double discontinuities_before(const model *, double time);
  * et al., section 4). The state is in equilibrium with the inertia forces of rates that follow the
  * increment, v = v0 + g inc, a = a0 + b inc. */
 
-/* Returns 1 if the last factors may be used again, because corrections are below 1e-4 and at most a
- * tenth of the previous ones. */
+/* Returns 1 if the last factors may be used again, because the corrections of coordinates and
+ * stresses are at most 1e-4 and those of coordinates at most a tenth of the previous ones. */
 int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
@@ -718,13 +722,15 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
                    model_state *now, step_record *, fault *);
 
 /* Computes consistent accelerations and massless coordinates after a discontinuity of the loads.
- * Velocities do not change. */
+ * Velocities of free coordinates with inertia do not change. REFUSED: the value of a driver differs
+ * from its coordinate. */
 status consistent_restart(analysis_context *, const frame_masses *, const scene_motion *,
                           motion_state *now, motion_state *room, fault *);
 /* Sets the initial rates of a structure that is at rest in rotating axes, plus the requested
  * velocities. `now` contains the state and the time; `room` is work space. frame: angular velocity
  * [rad/s] and centre [m] of the axes; omega zero: the axes do not rotate. REFUSED: a fixed or
- * prescribed coordinate does not follow this rotation. */
+ * prescribed coordinate does not follow this rotation, the velocities violate a constraint, or the
+ * value of a driver differs from its coordinate. */
 status initial_conditions_rotating(analysis_context *, const frame_masses *, const scene_motion *,
                                    const scene_rotating_frame *frame, motion_state *now,
                                    motion_state *room, fault *);
@@ -1038,7 +1044,8 @@ typedef struct consistent_mass_parts {
     const struct mesh_element *el;
     const model_state *state;
     int columns; /* number of coordinates of the element: 7 per node, then those of released ends */
-    int wide;    /* 1: the element has a released end, which may have no coordinates */
+    int wide;    /* 1: the element has a released end, or the body of a node has translations in own
+                    axes or an arm (mesh_vertex.turned, led) */
     double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as in inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -1222,7 +1229,8 @@ void observers_end(observers *);
 /* Returns the value of the quantity at a time of the step, without factor and offset; NAN: none. */
 double observer_value(observers *, const observer *, double time);
 /* Computes the difference between a probe step to the given time and the polynomial; 0 for
- * quantities that do not use the polynomial. */
+ * quantities that do not use the polynomial, for jerks, at the ends of the step, and if the probe
+ * step fails. */
 status observer_disagreement(observers *, const observer *, const motion_state *from, double time,
                              double *out, fault *);
 /* Returns the time of point i of Lobatto's rule from a to b. */
