@@ -39,9 +39,9 @@ void arnoldi_free(arnoldi_result *);
  * frames of motions, of linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
-/* Collects the matrices about the undeformed structure, about every computed station of every path,
- * and about the states of modal analyses. If linear models are requested, also collects those of
- * harmonic analyses. */
+/* Collects the matrices about the undeformed structure, about every computed station of static
+ * paths, continuations and rotations, and about the states of modal analyses. If linear models are
+ * requested, also collects those of harmonic analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Returns the number of modes that an analysis must find for the imperfections that use it,
@@ -49,7 +49,9 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
  * buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
- * amplitude. REFUSED: the message gives the reason. */
+ * amplitude. REFUSED: a mode does not exist, is one of several equal modes between which its
+ * direction does not choose, shifts no member, or is perpendicular to its direction. If the
+ * analysis of a mode failed: the status of this analysis. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
@@ -94,8 +96,8 @@ typedef struct unsymmetric_problem {
 
 /* Modes with s = growth + i frequency, in ascending order of magnitude. If there is no damping, the
  * result contains both modes of a flutter (same frequency, opposite growth rates) and the growing
- * mode of a divergence. If there is damping, the result contains every oscillating mode and every
- * growing mode. */
+ * mode of a divergence. If there is damping, the result contains every oscillating mode, every
+ * growing mode and, if `decaying` is 1, the modes that decay without oscillation. */
 typedef struct unsymmetric_result {
     int n, count;
     double *frequency, *growth; /* [count] frequencies [rad/s] and growth rates [1/s]; growth 0:
@@ -321,7 +323,7 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
  * after every sixth of the step, so a loss over a fifth of the step is noticed. */
 
 /* Examines the step between the two states. *found: a path value within the step at which stability
- * differs from that of both ends; INFINITY: none. The work is not counted. */
+ * differs from that of both ends; INFINITY: none, or unknown. The work is not counted. */
 status within_step(flutter_check *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
@@ -329,11 +331,13 @@ status within_step(flutter_check *, analysis_context *, const model_state *from,
  * that the analysis follows. */
 
 /* Computes the natural frequencies of M x = (1/omega^2) K x, where K is the tangent and M is the
- * mass matrix of the deformed state. */
+ * mass matrix of the deformed state. If K is not symmetric, or the growth rate of an unstable state
+ * is requested, computes the modes of unsymmetric_solve. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
-/* Finds the value of the path parameter, beyond the end of the static path, at which the tangent of
- * the nonlinear path first becomes singular (a bifurcation). Loads and drivers continue beyond the
- * end in the same way as along the path. */
+/* Finds the values of the path parameter at which the tangent of the nonlinear path becomes
+ * singular (bifurcations): beyond the end of the static path or, if the state there is unstable,
+ * from path 0 on. Loads and drivers continue beyond the end in the same way as along the path. For
+ * loads without a potential, finds the first value at which stability is lost. */
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
 
 /* Natural frequencies about the undeformed state. */
@@ -341,7 +345,8 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Returns the number of modes that the quantities of an analysis need. */
+/* Returns the number of modes that the quantities and imperfections of an analysis need, plus some
+ * spare modes. */
 int modal_wanted(const analysis_context *, int analysis);
 
 /* Steady-state vibration as a function of frequency: D(w) x = f with the dynamic stiffness D
@@ -423,7 +428,7 @@ enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_M
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
 /* Sets y[border] of the direct solution to U^T r of the driven coordinate of the input. Returns 0
- * if the input is a force. */
+ * if the input is not a prescribed motion. */
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
 /* Computes the linear form o[all + loops] of a quantity in the displacements: the quantity is o^T
  * x. */
@@ -486,12 +491,14 @@ status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *)
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
 /* Computes the natural frequencies [Hz] in ascending order, at least those below the given
- * frequency. The caller frees *hertz. If springs or dashpots are not symmetric, the modes are
- * damped, otherwise they are undamped. *count is 0 if loads make the stiffness unsymmetric or if
- * there would be too many frequencies. */
+ * frequency. The caller frees *hertz. The modes are damped if springs or dashpots are not
+ * symmetric, loops are closed, the axes rotate, or the state belongs to a motion; otherwise they
+ * are undamped. *count is 0 if loads make the stiffness unsymmetric or if there would be too many
+ * frequencies. */
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
-/* Checks the growth of modes. REFUSED: a mode grows because of feedback loops or of springs without
- * a potential. */
+/* Checks the growth of modes. REFUSED: a mode grows because of feedback loops, of springs without a
+ * potential, or of damping in rotating axes. NOT_CONVERGED: it is not known whether a mode grows.
+ * About a state during a motion, growth is only noted in the result. */
 status harmonic_check_growth(vibration *, double below, fault *f);
 /* Returns the number of modes with damping ratios, and sets U[count x free]. The damping matrix is
  * C + U U^T. */
@@ -502,13 +509,14 @@ void harmonic_modes_carried(const vibration *, int driven, double out[]);
 /* Adds the static shapes due to the forces f[count x free] of inputs and outputs, and computes the
  * projected matrices. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a circular frequency. SINGULAR: as in a direct solution. */
+/* Factors D at a circular frequency. SINGULAR: as in a direct solution. NOT_CONVERGED: there are
+ * too few modes for an error bound. */
 status harmonic_modes_factor(vibration *, double w, fault *);
 /* Solves for x[free], which contains the forces on entry and the solution on return. f: receives
- * the residual of the forces. */
+ * the residual of the forces, unless all modes are used. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
-/* Returns a bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; INFINITY:
- * no bound is known. */
+/* Returns a bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; 0: all
+ * modes are used. */
 double harmonic_modes_bound(vibration *, const double complex left_of_f[],
                             const double complex left_of_o[]);
 /* Returns the norm of a residual r[free], sqrt(r^H K^-1 r). */
@@ -547,8 +555,8 @@ status harmonic_check_motion(const vibration *, int driver, fault *);
 /* Checks the velocity or acceleration that the quantity reads. REFUSED: the body rotates at this
  * time of the motion, so the quantity is not only the rate of a displacement. */
 status harmonic_check_rates(const vibration *, const scene_response *, fault *);
-/* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: the coordinate moves
- * more than one node. */
+/* Sets *out to the driven coordinate whose reaction a quantity reads. REFUSED: no motion drives
+ * this component alone, or the motion drives other components. */
 status harmonic_reacting(const vibration *, const scene_response *, int *out, fault *);
 
 /* Second-order models with the inputs and outputs of the scene (second_order.c). */
@@ -566,7 +574,7 @@ status second_order_keep_reduced(const vibration *, const system_matrices *,
 status second_order_triplets(int rows, int columns, const double value[], triplets *, fault *);
 /* Stores the model with its first `outputs` outputs. */
 status second_order_take(const second_order *, int outputs, linear_model *, fault *);
-/* Stores the state space. reduced 1: the state space of the whole model already exists. */
+/* Stores the state space. reduced 1: m is a reduced model, which error messages mention. */
 status second_order_state_space(const vibration *, const system_matrices *, const second_order *,
                                 int reduced, linear_model *, fault *);
 

@@ -130,7 +130,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     return outcome;
 }
 
-/* Stores all shapes. The caller collect_shapes() frees *s, even after a failure. */
+/* Stores all shapes. After a failure, collect_shapes frees *s. */
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
@@ -171,7 +171,8 @@ status collect_shapes(const analysis_context *c, int most, shapes *s, fault *f)
 }
 
 typedef struct workspace {
-    sparse K, M, G, C; /* matrices for linear models; the driven coordinates are included */
+    sparse K, M, G,
+        C; /* matrices of the states, with the driven coordinates if linear models are requested */
     int models, free, all;
     double *residual, *load; /* [free + driven] */
     double *sigma;           /* [stresses] */
@@ -266,8 +267,8 @@ static status keep_model(const analysis_context *c, const model_state *state, co
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
-/* Stores K, which the caller has computed, and B. If the formulation has inertia, also stores M, C
- * if there is damping, and G if the axes rotate. */
+/* Stores K, which the caller has computed, and B. If the model has inertia, also stores M, C if
+ * there is damping, and G if the axes rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {

@@ -194,7 +194,8 @@ int harmonic_border(const vibration *v)
     return v->c->scene->analysis[v->analysis].by_modes ? 0 : harmonic_modes_damped(v->modes, &U);
 }
 
-/* Sets the entries of the loops in column j of one half: gain S^T x + own u = 0, and -P u. */
+/* Appends the entries of the loops in column j of one half: gain S^T x + own u = 0, and -P u.
+ * Returns the new number of entries. */
 static int loops_column(const vibration *v, int j, double w, int count, int row[],
                         double complex z[])
 {
@@ -220,7 +221,8 @@ static int loops_column(const vibration *v, int j, double w, int count, int row[
     return count;
 }
 
-/* Sets the entries of column j of one half: the rows and, unless z is NULL, the values at w. */
+/* Sets the entries of column j of one half: their rows, and their values at w. Returns their
+ * number. */
 static int column_of(const vibration *v, int j, double w, int row[], double complex z[])
 {
     const int n = v->free, more = harmonic_border(v);
@@ -246,7 +248,7 @@ static int column_of(const vibration *v, int j, double w, int row[], double comp
     return loops_column(v, j, w, count, row, z);
 }
 
-/* Fills D at the frequency w. The call with w = 0 also sets the pattern of D. */
+/* Fills D at the frequency w, including its pattern. */
 static void fill(vibration *v, double w)
 {
     const int n = v->free + harmonic_border(v) + v->loops;

@@ -220,8 +220,8 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
     return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
 }
 
-/* Checks the damping. REFUSED: the matrices are not symmetric, as the projection on modes requires.
- * */
+/* Checks the damping. REFUSED: that of a spring is not symmetric, as a solution by modes
+ * requires. */
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

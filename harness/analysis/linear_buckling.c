@@ -72,7 +72,7 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
  * which are constant and include initial strains. */
 
 /* Quadratic forms for the stresses due to loads that are scaled by the load factor (growing), and
- * for the stresses due to constant loads (staying). */
+ * for the stresses due to constant loads (constant_part). */
 typedef struct prestresses {
     quadratic_forms growing, constant_part;
     int has_constant;      /* 0: no constant stress */

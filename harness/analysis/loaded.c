@@ -605,9 +605,10 @@ static status store_results(loaded_search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
-/* Returns the largest N l^2/(pi^2 E I) of all elements, where N is the compressive force in
- * Newton's state and I is the smaller second moment of area. If the result exceeds 1, an element
- * buckles individually, and the divergence may be this local buckling. */
+/* Returns the largest N l^2/(pi^2 E I) of all elements, where N is the larger compressive force at
+ * the ends of the element's member in Newton's state and I is the smaller second moment of area. If
+ * the result exceeds 1, an element buckles individually, and the divergence may be this local
+ * buckling. */
 static double thrust_of_elements(const newton_run *n)
 {
     const model *m = n->c->model;

@@ -116,7 +116,7 @@ static double iterate(refinement *t, double complex *s)
 
 status refine_pole(const sparse of[], double complex *s, double mode[], double *error, fault *f)
 {
-    enum { DENSE = 1200 }; /* of n */
+    enum { DENSE = 1200 }; /* largest n */
     const size_t n = (size_t)of[0].n;
     *error = INFINITY;
     if (n > DENSE)

@@ -81,7 +81,8 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path that starts from a structure whose stiffness is indefinite at rest. */
+/* Returns NOT_CONVERGED if a path failed, or has steps with an indefinite tangent, because the
+ * stiffness of the structure at rest is indefinite. */
 static status check_undeformed_state(analysis_context *c, const analysis_outcome *o, int first_step,
                                      fault *f)
 {

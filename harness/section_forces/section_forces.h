@@ -13,10 +13,13 @@ enum {
 typedef struct span_grid {
     double x[SPAN_GRID_POINTS];
     double weight[SPAN_GRID_POINTS];                       /* barycentric weights */
-    double integral[SPAN_GRID_POINTS][SPAN_GRID_POINTS];   /* integral from 0 to x[i] */
-    double derivative[SPAN_GRID_POINTS][SPAN_GRID_POINTS]; /* derivative at x[i] */
-    double gauss[SPAN_GRID_POINTS - 1][SPAN_GRID_GAUSS][SPAN_GRID_POINTS]; /* values at the Gauss
-                                                                              points */
+    double integral[SPAN_GRID_POINTS][SPAN_GRID_POINTS];   /* [i][j] weight of the value at x[j] in
+                                                              the integral from 0 to x[i] */
+    double derivative[SPAN_GRID_POINTS][SPAN_GRID_POINTS]; /* [i][j] weight of the value at x[j] in
+                                                              the derivative at x[i] */
+    double gauss[SPAN_GRID_POINTS - 1][SPAN_GRID_GAUSS]
+                [SPAN_GRID_POINTS]; /* [i][k][j] weight of the value at x[j] in the value at Gauss
+                                       point k between x[i] and x[i + 1] */
 } span_grid;
 
 void span_grid_make(span_grid *g);
@@ -37,8 +40,8 @@ typedef struct span_frame {
  * the ends, the line is that of the exact beam between the end frames (Simo-Reissner with warping,
  * the constants of the section, and the active physics). */
 
-/* Action of the part towards q on the part towards p, in the principal axes of the rotated section.
- * Moments are about the centroid. */
+/* Action of the part towards q on the part towards p (the end and the start of the element), in the
+ * principal axes of the rotated section. Moments are about the centroid. */
 enum span_value {
     SPAN_N,
     SPAN_QY,
@@ -58,8 +61,9 @@ enum span_value {
 };
 
 typedef struct span_end {
-    span_frame frame;           /* frame of an end, including its position [m] */
-    double force[3], moment[3]; /* force and moment, in global axes [N, N m] */
+    span_frame frame; /* frame of an end, including its position [m] */
+    double force[3],
+        moment[3]; /* action of the part towards q on the part towards p, in global axes [N, N m] */
     double bimoment, amplitude; /* [N m^2, 1/m] */
 } span_end;
 
@@ -91,7 +95,9 @@ typedef struct span_move {
     double turn[3]; /* rotation vector [rad] */
 } span_move;
 
-/* Computes the section forces. NOT_CONVERGED: no line between the ends was found. */
+/* Computes the section forces. NOT_CONVERGED: no line between the ends was found. SINGULAR: the
+ * torsion of a linear problem is singular. Other statuses: the section cannot be used
+ * (beam_constants_of). */
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f);
 
 /* Computes the displacement and the rotation of the section at x from those of the ends. begin:

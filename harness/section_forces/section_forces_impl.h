@@ -36,9 +36,9 @@ void span_grid_at(const span_grid *g, double x, double share[]);
  * row-major. */
 void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
 /* Solves the equation, starting from x[n] with n <= FIXED_POINT_MAX. Stops when no entry changes by
- * more than `enough`, or when the largest change no longer decreases. x becomes the iterate with
- * the smallest such change. Returns the largest change of an entry in this iterate; INFINITY: the
- * map failed. */
+ * more than `enough`, when a change is not finite, or after 100 evaluations of the map. x becomes
+ * the value of the map with the smallest largest change of an entry. Returns this change; INFINITY:
+ * the map failed, or no change was finite. */
 double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
 
 #endif

@@ -403,8 +403,9 @@ static void span_curve_between(const span_grid *g, const span_frame *p, const sp
 
 enum { TWIST_N = SPAN_GRID_POINTS };
 
-/* Computes the amplitudes [N] of the solution with given bimoment at one end (0, 1) and given
- * amplitude at the other end. */
+/* Computes the warping amplitudes a[SPAN_GRID_POINTS] of the solution with the given bimoment at
+ * end `end` (0, 1) and the given amplitude at the other end. Returns 0, or 1 if the equations are
+ * singular. */
 static int amplitudes(const span_grid *g, const span_torsion *t, int end, double a[])
 {
     double matrix[TWIST_N * TWIST_N];

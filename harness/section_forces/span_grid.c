@@ -87,8 +87,8 @@ void span_grid_integrate(const span_grid *g, int count, const double values[], d
 
 enum { MEMORY = 12, MOST = 100 };
 
-/* Differences of the last iterates, and of the values of the map. The differences of the iterates
- * are orthonormalised (Gram-Schmidt). */
+/* Differences of the steps G(x) - x, orthonormalised (Gram-Schmidt), and of the values G(x) of the
+ * map. */
 typedef struct history {
     int count;
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
