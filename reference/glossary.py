@@ -11,7 +11,8 @@ def looked_up(word):
 
 
 def read_glossary(path):
-    """Returns the entries, after checking that names are unique and that references exist."""
+    """Returns the entries. Raises Refused if a field is missing, if a name is explained twice, or
+    if `see` does not name another term."""
     rows, names = [], {}
     for number, row in read_csv(path, GLOSSARY_COLUMNS):
         where = f"{path.name}:{number}"

@@ -140,7 +140,8 @@ def truth_key(row):
 
 
 def read_truths(folders, defaults):
-    """Returns {case: rows} from the tables in the folders. A missing table is treated as empty."""
+    """Returns {case: rows} from the tables in the folders. Raises Refused if a row is invalid or
+    given twice, or if the units of a quantity of a case differ."""
     cases, seen, units = {}, {}, {}
     for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):

@@ -44,7 +44,8 @@ class Beam:
         self.EIw, self.t, self.c, self.curvature, self.centre, self.wagner = EIw, t, c, curvature, centre, wagner  # wagner = (by, bz)
 
     def scaled(self, length, force):
-        """Stiffnesses that may be infinite are replaced by compliances."""
+        """Returns the beam in units of a length and a force. Stiffnesses that may be infinite are
+        replaced by compliances."""
         moment = force * length
         s = Scaled()
         s.length, s.warps = self.length / length, self.EIw > 0

@@ -7,7 +7,7 @@ def name_of(i, j):
 
 
 def entry_of(name):
-    """Returns (row, column) of the entry named C_MOTION_LOAD."""
+    """Returns (row, column) of the entry named C_MOTION_LOAD, C_xx or C_zz."""
     if name in ("C_xx", "C_zz"):
         return (i := "xyz".index(name[-1])), i
     motion, load = name.split("_")[1:]

@@ -95,7 +95,7 @@ def bent_sheets():
 
 def vibrating_sheets():
     """The elements of J have consistent mass by default, which changes the limit (option `interpolated` of
-    equilibrium.py). The sheet elements have lumped mass."""
+    equilibrium.py). In the sheet elements, the amplitude a determines the inertia of warping."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})

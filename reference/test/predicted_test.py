@@ -1,4 +1,5 @@
-"""Tests predicted limits of printed elements."""
+"""Predicted limits of printed elements must equal the stored rows and, within 1e-6, closed forms.
+With exact strains, they must equal exact values within 1e-10."""
 import copy
 import pathlib
 import sys

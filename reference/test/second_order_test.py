@@ -1,4 +1,5 @@
-"""Compares derived modified modes exactly, in fractions (reference/derive/second_order.py)."""
+"""The derived modified modes must equal N Eq. 37 (apart from the factor l/l0 of the shear strain),
+J Eq. 66 without shear and the corrected J Eq. 66, exactly (reference/derive/second_order.py)."""
 import pathlib
 import sys
 import unittest

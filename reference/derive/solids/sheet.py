@@ -117,7 +117,8 @@ def bent(deflection, mesh):
 
 
 def twisted(angle, mesh):
-    """The initial guess is near the solution of the beam."""
+    """Returns {name: compliance} for a twist of the tip [rad]. The initial guess is near the
+    solution of the beam."""
     start = [
         -1.29e-3 - 4.7e-3 * angle**2,
         0.015,
