@@ -1,4 +1,5 @@
-/* The energy balance of motions. */
+/* The energy-balance error of motions must be small. account_check must report errors above its
+ * limit, with advice. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* Motions with consistent mass. */
+/* Motions with consistent mass must conserve momenta and energy, with as few iterations as with
+ * lumped mass. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"

@@ -1,4 +1,5 @@
-/* Fixed rotations of a node. */
+/* If rotations of a node are fixed, the answers (within 1e-10) and the refusals must not depend on
+ * whether their unknowns are eliminated or kept. */
 #include <math.h>
 #include <stdio.h>
 

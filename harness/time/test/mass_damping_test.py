@@ -1,4 +1,5 @@
-"""Mass-proportional damping of motions: momenta and energy of a free structure, and an oscillator."""
+"""With mass-proportional damping, momenta of a free structure and the motion of an oscillator must
+agree with closed forms."""
 import math
 import unittest
 

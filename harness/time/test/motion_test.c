@@ -1,4 +1,5 @@
-/* Motions of all formulations. */
+/* The integrators alpha and radau must agree for every formulation, within 1 % of the static
+ * deflection. */
 #include <math.h>
 
 #include "elements/math/scalar.h"

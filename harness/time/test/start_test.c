@@ -1,4 +1,5 @@
-/* Initial states of motions, and quantities read from them. */
+/* A steady rotation must continue as it starts, and a released structure must keep its energy.
+ * Resultants in a rotating rod must agree with a closed form. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 

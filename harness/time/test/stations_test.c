@@ -1,4 +1,5 @@
-/* Stations at any times. */
+/* Values at stations must have the order of the integrator, inside steps and at their ends.
+ * Stations must not change the motion. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
