@@ -3,16 +3,16 @@
 
 usage: blind_spots.py FAULTY VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
 
-FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads (plant.c).  For
-each constant, the values on the two coarsest meshes with and without the fault give the derivative of every limit.
-VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its verdict
-(harness/study/verdict.c, evaluation.c). The smallest detected fault is the band divided by the derivative. There are
-two ways of detection:
+FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads (plant.c).
+For each constant, the values on the two coarsest meshes with and without the fault give the derivative of every
+limit. VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its
+verdict (harness/study/verdict.c, evaluation.c). The smallest detected fault is the band divided by the
+derivative. There are two ways of detection:
   verdict    the verdict differs, for either sign of the fault;
   baseline   the limit at the default point differs from the committed one by more than 1e-5
-             (harness/experiments/verification.c), where no exact reference value checks it as closely. Comparisons of
-             mesh errors with the committed ones detect some smaller faults of one sign; these are not counted.
-"""
+             (harness/experiments/regressions.c), where no exact reference value checks it as closely. Comparisons
+             of
+             mesh errors with the committed ones detect some smaller faults of one sign; these are not counted."""
 import argparse
 import csv
 import json
@@ -31,7 +31,7 @@ CONSTANTS = (
 SIZE = 1e-3  # size of the injected faults
 WANTED = 1e-3  # larger faults must not remain undetected without a reason
 LEAST = 1e-9  # smallest difference between two faults
-SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # constants of study/verdict.c, of predictions, and of experiments/verification.c
+SURELY, KNOWN, MOVED = 3, 1e-9, 1e-5  # constants of study/verdict.c, of predictions, and of experiments/regressions.c
 CHANGED = 1e-7  # smaller relative changes of a value are due to rounding or to the steps of a motion
 NEAR = 1e-2  # largest relative error of values on coarse meshes that predict the change of a limit sufficiently well
 SOUND = 1e-3  # tolerance of a limit, cases/scene/scene.h

@@ -14,7 +14,7 @@ rounds = None if bw is None else importlib.import_module("beamwork.peers._rounds
 class Features(ModuleTest):
 
     def test_closed_forms(self):
-        """Formulations reproduce the closed form of every scene."""
+        """geometrically_exact with 32 elements must reproduce the closed form of every scene to 1e-5."""
         for name, _, make, exact in features.CASES:
             with self.subTest(name):
                 self.assertAlmostEqual(make().solve("geometrically_exact", 32)["q"] / exact, 1, delta=1e-5)
@@ -34,7 +34,7 @@ class Features(ModuleTest):
         self.assertEqual(self.outcome(missing="x is not installed"), "not installed")
 
     def test_tried(self):
-        """A motion of a rod that is rigid in shear, with Exudyn."""
+        """With Exudyn, the motion of a rod that is rigid in shear must work."""
         peers = importlib.import_module("beamwork.peers")
         chosen = [("exudyn", "exact_3d", peers.load("exudyn").ELEMENTS["exact_3d"])]
         with unittest.mock.patch.object(features, "CASES", [case for case in features.CASES if case[0] == "motion"]):
@@ -46,7 +46,7 @@ class Features(ModuleTest):
 
     @unittest.skipUnless((ROOT / "reference" / "peers" / "features.json").is_file(), "no features are recorded")
     def test_page(self):
-        """The page of the documentation is made of the recorded features."""
+        """The page of the documentation must be that of the recorded features."""
         found = json.loads((ROOT / "reference" / "peers" / "features.json").read_text(encoding="utf-8"))
         page = (ROOT / "docs" / "reference" / "peer_features.md").read_text(encoding="utf-8")
         self.assertEqual(page, features.markdown(found))

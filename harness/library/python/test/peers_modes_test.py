@@ -60,8 +60,9 @@ class Modes(PeerTest):
         return [q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 16)["quantities"]]
 
     def test_cantilever(self):
-        """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of ours, whose
-        limits tests compare with closed forms. The torsional one is sqrt(G It/(rho Ip))/(4 L)."""
+        """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of
+        beamwork, whose limits other tests compare with closed forms. The torsional one is sqrt(G It/(rho Ip))/(4
+        L)."""
         def check(peer, name, element):
             ratio = 1.0 if peer == "kratos" else 0.5
             made = bar(element, Ip=5e-5 / ratio) if "plane only" not in element.summary else bar(element)
@@ -73,7 +74,7 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_free(self):
-        """A free structure has a zero frequency for each rigid-body motion, then the elastic frequencies."""
+        """A free structure must have a zero frequency for each rigid-body motion, then the elastic frequencies."""
         def check(peer, name, element):
             made = bar(element, hold="")
             got = self.solved(peer, name, made, refused="supports that hold")
@@ -83,7 +84,7 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_pinned(self):
-        """A bar that may turn about its end has three zero frequencies."""
+        """A bar that may rotate about its end must have three zero frequencies, or one in the plane."""
         def check(peer, name, element):
             made = bar(element, hold=["ux", "uy", "uz"])
             got = self.solved(peer, name, made, refused="supports that hold")
@@ -103,8 +104,9 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_loaded(self):
-        """A clamped bar under tension T: 2 a b (1 - cosh a cos b) + (a^2 - b^2) sinh a sin b = 0 with a^2, b^2 =
-        sqrt((T/2 EI)^2 + rho A w^2/EI) +- T/2 EI."""
+        """The lowest frequency w/(2 pi) of a bar with L = 1 that is clamped at both ends and under tension T must
+        satisfy 2 a b (1 - cosh a cos b) + (a^2 - b^2) sinh a sin b = 0 with a^2, b^2 = sqrt((T/2 EI)^2 + rho A
+        w^2/EI) +- T/2 EI."""
         pull, stiffness = 8e6, YOUNG * 1e-5
 
         def boundary(f):
@@ -129,7 +131,7 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_families(self):
-        """Modes of a family are counted apart, also if frequencies are equal."""
+        """Modes must be counted separately in each family, even if frequencies are equal."""
         def check(peer, name, element):
             if made_plane := "plane only" in element.summary:
                 families = {"bending_y": math.nan, "axial": 1250}
@@ -150,7 +152,7 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_no_mass(self):
-        """A structure without mass has no frequencies."""
+        """A structure without mass must have no frequencies."""
         def check(peer, name, element):
             data = self.data(bar(element))
             data["sections"][0]["density"] = 0
@@ -161,7 +163,7 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_body(self):
-        """A body at the tip changes the frequencies as it does in ours."""
+        """A body at the tip must change the frequencies as it does in beamwork."""
         def check(peer, name, element):
             if "nodes.mass" not in element.keys:
                 return
@@ -171,7 +173,8 @@ class Modes(PeerTest):
         self.each(check)
 
     def test_ring(self):
-        """A free ring: six rigid-body motions, and double frequencies of bending that converge to the closed form."""
+        """A free ring must have six rigid-body motions, and double frequencies of bending that converge to the
+        closed form."""
         def check(peer, name, element):
             data = {}
             for rotary in (0, 1):
@@ -211,19 +214,20 @@ class Buckling(PeerTest):
                         check(peer, name)
 
     def test_column(self):
-        """Engesser's load of the pinned column; the column shortens by 3e-4 before it buckles."""
+        """The critical load of the pinned column must be Engesser's, although the column shortens by 3e-4 before it
+        buckles."""
         def check(peer, name):
             self.assertAlmostEqual(self.extrapolated(peer, name, "shear_column") / 9202.2121765, 1, delta=1e-4)
         self.buckling(check)
 
     def extrapolated(self, peer, name, case, **parameters):
-        """Returns the limit from two meshes, for an order of 2 or more."""
+        """Returns the limit extrapolated from two meshes with order 2."""
         coarse, fine = (self.factor(peer, name, case, n, **parameters) for n in (8, 16))
         return (4 * fine - coarse) / 3
 
     def test_lateral(self):
-        """Lateral buckling of a cantilever, 4.0126 sqrt(EI GJ)/L^2 for any ratio of the bending stiffnesses, and of a fork-ended
-        beam, 16.936."""
+        """The factor of sqrt(EI GJ)/L^2 in the load of lateral buckling must be 4.0126 for a cantilever with any
+        ratio of the bending stiffnesses, and 16.936 for a fork-ended beam."""
         def check(peer, name):
             for want, parameters in ((4.0125993, {}), (4.0125993, {"ratio": 3}), (16.936132, {"load": "mid"})):
                 self.assertAlmostEqual(self.extrapolated(peer, name, "lateral_buckling", **parameters) / want, 1, delta=2e-5)
@@ -233,7 +237,8 @@ class Buckling(PeerTest):
 class Compliance(PeerTest):
 
     def test_sheet(self):
-        """The plane beam of Exudyn must have the compliances of ours in the deflected sheet, along it and across it."""
+        """The plane beam of Exudyn must have the compliances of beamwork in the deflected sheet, along it and across
+        it."""
         words = ("sheet_cantilever", "--set", "warping=0", "--set", "trapeze=0", "--set", "shear_factor=0.8333333333")
         data = json.loads(self.answered("scene", *words, "--format", "json").stdout)
         record = self.record("solve", *words, "-f", "collocation", "-n", 8)

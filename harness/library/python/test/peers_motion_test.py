@@ -174,7 +174,8 @@ class Against(MotionTest):
         return {q["quantity"]: q["value"] for q in solution["quantities"]}
 
     def test_large(self):
-        """Large motions in space, with supports and free: displacements, velocities, reactions and energy."""
+        """In large motions in space, with supports and free, displacements, velocities, reactions and energy must
+        agree."""
         def check(peer, name, space):
             if not space:
                 return
@@ -205,7 +206,7 @@ class Against(MotionTest):
         self.each(check)
 
     def test_plane(self):
-        """A body at a node, gravity on all, and a drive, in the plane."""
+        """In the plane, the motion with a body at a node, gravity on all, and a drive must agree."""
         def check(peer, name, _):
             made = bar(radius=0.05)
             made.nodes["tip"].update(mass=1.0, inertia=[0.2, 0.2, 0.2, 0, 0, 0])

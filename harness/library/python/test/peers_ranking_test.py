@@ -59,7 +59,7 @@ class Ranking(unittest.TestCase):
         return ranking.rank(given, given["quantities"][0], level)
 
     def test_coarsest(self):
-        """A mesh reaches an error if all finer meshes do."""
+        """A mesh must count as reaching an error only if all finer meshes reach it as well."""
         lucky = series("lucky", [run(1, 1e-5, 1), run(2, -0.03, 2), run(4, 0.005, 4)])
         self.assertEqual(ranking.coarsest(lucky, "u", 1e-2)["elements"], 4)
         self.assertEqual(ranking.coarsest(lucky, "u", 1e-1)["elements"], 1)
@@ -72,7 +72,7 @@ class Ranking(unittest.TestCase):
         self.assertIn("3 systems solved against 5 (a)", found["ahead"].replace("systems solved against", "systems solved against"))
 
     def test_least_work(self):
-        """The least work may belong to another program than the least time."""
+        """The program with the least work must be found even if it is not the fastest."""
         found = self.ranked(1e-2, series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(1, 1e-3, 2.0, unknowns=3)]))
         self.assertEqual((found["rows"][0]["name"], found["least_work"]["name"], found["least_work"]["work"]), ("a", "b", 15))
         text = tables.text(record(series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(1, 1e-3, 2.0, unknowns=3)])))
@@ -88,7 +88,7 @@ class Ranking(unittest.TestCase):
         self.assertEqual(found["others"], [["a", "smallest error 0.1 %, with 1 elements"]])
 
     def test_wrong_limit(self):
-        """A program whose limit is known to be wrong does not reach a smaller error by chance."""
+        """A program whose limit is known to be wrong must not count as reaching a smaller error by chance."""
         wrong = {"u": {"verdict": "wrong limit", "message": "converges to a wrong limit: +2 %", "limit": 1.02, "error": 0.02}}
         given = (series("a", [run(1, 1e-3, 1.0)], True), series("b", [run(4, 1e-3, 0.1)], verdicts=wrong))
         found = self.ranked(1e-2, *given)
@@ -97,14 +97,14 @@ class Ranking(unittest.TestCase):
         self.assertEqual([row["name"] for row in self.ranked(0.1, *given)["rows"]], ["b", "a"])
 
     def test_reasons(self):
-        """Who is not compared is named with the reason."""
+        """Each program that is not compared must be listed with the reason."""
         refused = series("b", [{"elements": 1, "refusal": "warping: none"}])
         text = tables.text(record(series("a", [run(1, 1e-3, 1.0)], True), refused, series("d", [], missing="d is not installed")))
         self.assertIn("not compared: b: warping: none", text)
         self.assertIn("not compared: d: d is not installed", text)
 
     def test_without_times(self):
-        """Recorded results without times are ranked by work, and are never ahead."""
+        """Recorded results without times must be ranked by work and never be ahead."""
         old = series("old", [{**run(1, 1e-3, 1.0), "times": {}}])
         found = self.ranked(1e-2, old, series("a", [run(1, 1e-3, 1.0)], True))
         self.assertEqual(([row["name"] for row in found["rows"]], found["ahead"]), (["a", "old"], ""))
@@ -121,7 +121,7 @@ class Record(ModuleTest):
         return done.stdout
 
     def test_one_command(self):
-        """One command ranks formulations and peers, and the record gives the same ranking without times."""
+        """One command must rank formulations and peers, and its record must give the same ranking without times."""
         words = ("elastica", "--peers", "fake", "-f", "collocation", "-f", "beamw", "--elements", "4,8,16,32", "--rounds", 1)
         place, imports = self.folder / "r.json", self.folder / "r.csv"
         live = list(csv.DictReader(io.StringIO(self.peers(*words, "--format", "csv", "-o", place, "-o", imports))))
@@ -149,7 +149,7 @@ class Record(ModuleTest):
         self.assertIn("a peer is ahead", self.peers("--recorded", place))
 
     def test_import_only(self):
-        """An import file alone is made without formulations."""
+        """If only an import file is requested, it must be written without solving formulations."""
         self.assertEqual(self.peers("elastica", "--peers", "fake:bar", "--elements", "2", "--rounds", 1, "-o", self.folder / "t.csv"), "")
         self.assertIn("# program: fake, bar", (self.folder / "t.csv").read_text(encoding="utf-8"))
 

@@ -1,4 +1,4 @@
-"""Formulations of beamwork and other programs must take turns, and be asked the same."""
+"""Formulations of beamwork and other programs must alternate and solve the same problem."""
 import importlib
 import json
 import unittest
@@ -13,7 +13,7 @@ class Turns(unittest.TestCase):
 
     @unittest.skipIf(bw is None, "needs a library without sanitizers")
     def test_order(self):
-        """Each round asks everyone once, and all processes end."""
+        """In each round, each program must be asked once, and all processes must end."""
         log = []
 
         class Silent:
@@ -41,7 +41,7 @@ class Ours(ModuleTest):
         return json.loads(self.answered("scene", case, "--format", "json").stdout)
 
     def test_values(self):
-        """A formulation in its own process gives the values of `beamwork solve`."""
+        """A formulation in a separate process must give the values of `beamwork solve`."""
         found = peers.solve_all(self.data("elastica"), [], ["collocation", "beamw"], [1, 4], 2)
         self.assertEqual([one.program for one in found], ["collocation", "beamw"])
         for one in found:
@@ -53,21 +53,21 @@ class Ours(ModuleTest):
                 self.assertGreater(run["times"][""], 0)
 
     def test_analyses(self):
-        """Times are given for each analysis, and for all of them."""
+        """There must be a time for each analysis, and for all of them together."""
         run, = peers.solve_all(self.data("c_column"), [], ["beamw_consistent"], [2], 1)[0].runs
         self.assertGreater(len(run["times"]), 2)
         self.assertIn("", run["times"])
         self.assertTrue(all(0 < seconds < 10 for seconds in run["times"].values()))
 
     def test_systems(self):
-        """Equation systems are counted for each analysis."""
+        """Equation systems must be counted for each analysis."""
         run, = peers.solve_all(self.data("sheet_cantilever"), [], ["collocation"], [1], 1)[0].runs
         path, compliance = run["systems"]["analysis_0"], run["systems"]["analysis_1"]
         self.assertGreater(path, 0)
         self.assertGreater(compliance, path)
 
     def test_stability(self):
-        """Without the search for flutter, the values are the same."""
+        """Without the search for flutter, the values must be the same."""
         scene = bw.Scene.case("sheet_cantilever")
         one, other = (scene.solve("collocation", 2, stability=s) for s in (True, False))
         self.assertEqual(one.values, other.values)
@@ -75,7 +75,7 @@ class Ours(ModuleTest):
             scene.solve("collocation", 2, stability=1)
 
     def test_refused(self):
-        """What a formulation refuses has its reason, and the other meshes are tried."""
+        """A rejection by a formulation must have its reason, and the other meshes must be tried."""
         found, = peers.solve_all(self.data("bend_45"), [], ["beamw_vlasov:mass=no"], [1, 2], 1)
         self.assertEqual(len(found.runs), 2)
         self.assertIn("mass", found.runs[0]["refusal"])

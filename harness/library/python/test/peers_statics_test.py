@@ -92,7 +92,7 @@ class Continuation(ModuleTest):
         return found.runs[0]
 
     def test_snap_through(self):
-        """Both limit points of the frame of von Mises, in closed form."""
+        """Both limit points of the frame of von Mises must be those of the closed form."""
         def check(peer, name):
             run = self.solved(peer, name, 2, "snap_through")
             self.assertIn("values", run, run)
@@ -106,7 +106,8 @@ class Continuation(ModuleTest):
         self.each(check)
 
     def test_lee_frame(self):
-        """Snap-through and snap-back, with the exact limit loads of reference/derive/lee_frame.py."""
+        """The limit points of Lee's frame, which snaps through and back, must be within 5 % of the exact ones of
+        reference/derive/lee_frame.py."""
         for peer, name in peers.chosen(["opensees:forceBeamColumn", "exudyn:exact_2d"]):
             with self.subTest(peer=peer):
                 values = self.solved(peer, name, 8, "lee_frame")["values"]
@@ -233,7 +234,8 @@ class MBDyn(ModuleTest):
         return made
 
     def test_distributed(self):
-        """Small loads along a cantilever: q L^4/8 EI and, for a triangle that grows to the tip, 11 q L^4/120 EI."""
+        """Small loads along a cantilever must cause the deflection q L^4/8 EI and, for a triangle that grows to the
+        tip, 11 q L^4/120 EI."""
         made = self.cantilever("loads")
         made.loads["q"] = {"distributed": [0, 1e-4, 0], "on": "bar"}
         self.assertAlmostEqual(self.value(made, "uy")[0] / 1.25e-5, 1, delta=2e-3)
@@ -241,7 +243,7 @@ class MBDyn(ModuleTest):
         self.assertAlmostEqual(self.value(made, "uy")[0] / (11e-4 / 120), 1, delta=2e-3)
 
     def test_compliance(self):
-        """Compliances of a deflected sheet, on which several programs agree."""
+        """The compliances of a deflected sheet must be those on which several programs agree."""
         words = ("sheet_cantilever", "--set", "trapeze=0", "--set", "warping=0", "--set", "shear_factor=0.8333333333333334")
         scene = json.loads(self.answered("scene", *words, "--format", "json").stdout)
         found = peers.solve(scene, "mbdyn", "beam3", [8], rounds=1)
@@ -253,8 +255,8 @@ class MBDyn(ModuleTest):
         self.assertAlmostEqual(values["u_x"] / -1.3586446e-3, 1, delta=1e-4)
 
     def test_body(self):
-        """A bar is clamped at one end; a body at the other end is turned by a prescribed rotation vector. The moment is
-        4 EI/L or GJ/L times the angle."""
+        """A bar is clamped at one end; a body at the other end is turned by a prescribed rotation vector. The moment
+        must be 4 EI/L or GJ/L times the angle."""
         for axis, stiffness in ((0, 2), (2, 4)):
             made = self.cantilever("body")
             made.nodes["hub"] = {"at": [1, 0, 0], "rotation": {"vector": ["m0", "m1", "m2"]}}

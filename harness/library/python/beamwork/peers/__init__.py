@@ -1,4 +1,4 @@
-"""Other programs that solve a scene: each peer is a file of this folder, which runs in a process of its own.
+"""Drivers of other programs that solve a scene. Each peer is a file of this folder and runs in a separate process.
 
     python3 -m beamwork.peers bend_45 --peers exudyn,opensees -o theirs.csv
 
@@ -16,7 +16,7 @@ from ..errors import Refused
 from ._rounds import Compared, Series, of_formulation, take_turns
 
 _HERE = pathlib.Path(__file__).resolve().parent
-_OWN = {"data", "read", "run"}  # files that are not peers, like those whose names begin with "_"
+_OWN = {"data", "read", "run"}  # files that are not peers; nor are files whose names begin with "_"
 __path__ += filter(None, os.environ.get("BEAMWORK_DRIVERS", "").split(os.pathsep))
 
 
@@ -32,7 +32,8 @@ def load(name: str) -> Any:
 
 
 def interpreter() -> str:
-    """Returns the Python interpreter of the peers: BEAMWORK_PEERS, that of `make peers`, or this one."""
+    """Returns the Python interpreter of the peers: BEAMWORK_PEERS, otherwise that of `make peers`, otherwise this
+    one."""
     asked = os.environ.get("BEAMWORK_PEERS")
     if asked:
         return asked

@@ -1,4 +1,4 @@
-"""Processor times, and the least of several."""
+"""Processor times, and the smallest of several."""
 import math
 import resource
 import time
@@ -14,5 +14,5 @@ def clock() -> float:
 
 
 def least(first: Mapping[str, float], second: Mapping[str, float]) -> dict[str, float]:
-    """Returns the least of the times that have the same name."""
+    """Returns the times of `second`, each replaced by the time with the same name in `first` if that is smaller."""
     return {name: min(first.get(name, math.inf), value) for name, value in second.items()}

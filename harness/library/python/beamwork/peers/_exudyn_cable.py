@@ -69,7 +69,7 @@ class Cable(Steps):
         return rotation([0, 0, self.direction[self.of[name][0]]])
 
     def rotations(self) -> list[Matrix]:
-        """Returns the rotations, and follows their angles over several turns."""
+        """Returns the rotation matrices of the nodes of the scene. The angles are followed over several turns."""
         for name, (node, *_) in self.of.items():
             slope = self.mbs.GetNodeOutput(node, self.exu.OutputVariableType.Coordinates)[2:]
             x, y = (float(a) + b for a, b in zip(slope, (math.cos(self.direction[node]), math.sin(self.direction[node]))))

@@ -25,8 +25,9 @@ def _whole(model: Any) -> tuple[Any, Any, Any]:
 
 
 def _matrices(model: Any) -> tuple[Any, Any, Any]:
-    """Returns the stiffness and mass matrices of the initial state, for motions that the constraints allow, and these motions
-    as columns of all coordinates: as exudyn.solver.ComputeODE2Eigenvalues, which requires that every motion has mass."""
+    """Returns the stiffness and mass matrices of the initial state, for motions that the constraints allow, and a
+    matrix with these motions as columns. exudyn.solver.ComputeODE2Eigenvalues does the same, but requires that
+    every motion has mass."""
     import numpy  # pylint: disable=import-outside-toplevel
     K, constraints, M = _whole(model)
     free = numpy.eye(len(M))

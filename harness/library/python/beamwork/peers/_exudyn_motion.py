@@ -21,7 +21,8 @@ def moves(scene: Scene) -> bool:
 
 
 def inertia(scene: Scene, section: Section) -> list[float]:
-    """Returns the inertias about x, y, z; in motions the mass matrix must not be singular."""
+    """Returns the rotary inertias of a section about x, y, z [kg m]. In motions they are not zero, because the mass
+    matrix must not be singular."""
     least = section.rho_A * (_LEAST_RADIUS * scene.length())**2 if moves(scene) else 0.0
     return [max(v, least) for v in section.rho_I]
 
@@ -38,7 +39,8 @@ class Sensors:
         self.model, self.numbers, self.rows = model, dict[Any, int](), dict[Any, Any]()
 
     def record(self, kind: str, item: int, output: str) -> list[float]:
-        """Adds a sensor. Returns values in place of its output."""
+        """Adds a sensor, unless it exists. Returns placeholders for its output, which is known only after the
+        motion."""
         key = (kind, item, output)
         if key not in self.numbers:
             given = {f"{kind.lower()}Number": item, "outputVariableType": getattr(self.model.exu.OutputVariableType, output)}

@@ -1,4 +1,4 @@
-"""Paths with limit points in Exudyn: constraints of coordinates that are active in turn."""
+"""Paths with limit points in Exudyn: of several constraints of coordinates, one is active at a time."""
 from __future__ import annotations
 
 from typing import Any
@@ -24,7 +24,7 @@ def add_controls(model: Any) -> dict[Place, int]:
 
 
 class _Path(HeldPath):
-    """The path, controlled by constraints of coordinates that are active in turn."""
+    """The path, controlled by constraints of coordinates, of which one is active at a time."""
 
     def __init__(self, model: Any, analysis: Analysis) -> None:
         super().__init__()

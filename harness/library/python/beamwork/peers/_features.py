@@ -1,4 +1,4 @@
-"""Features of peers, measured: small scenes with closed forms, one for each feature."""
+"""Measures which features peers support, with a small scene for each feature that has a closed-form solution."""
 from __future__ import annotations
 
 import datetime
@@ -19,7 +19,7 @@ L, E, G, A, I, IT, RHO = 1.0, 2e11, 8e10, 1e-2, 2e-6, 3e-6, 8000.0
 EA, EI, GIT, GA = E * A, E * I, G * IT, 1e7
 F = 1e3  # load of the scenes with small displacements
 FINE, WORKS = (16, 32), 0.01  # meshes; largest error with which a feature works
-_SHORT = re.compile(r": the (?:element|driver) of .* does not (?:model it|read this key).*")  # what each cell repeats
+_SHORT = re.compile(r": the (?:element|driver) of .* does not (?:model it|read this key).*")  # repeated in every cell of the table
 _HALVED = 0.7  # the error on the finer mesh, relative to that on the coarser one, is below this if the values converge
 
 Case = tuple[str, str, Callable[[], Scene], float]
@@ -27,7 +27,7 @@ Case = tuple[str, str, Callable[[], Scene], float]
 
 def _cantilever(loads: Mapping[str, Any], analysis: Mapping[str, Any], quantity: Mapping[str, Any], omit: Sequence[str] = ("trapeze", "wagner_torque"),
                 section: Mapping[str, Any] | None = None, **tip: Any) -> Scene:
-    """Returns a cantilever along x that is rigid in shear and does not warp, unless the section says otherwise."""
+    """Returns a cantilever along x. Without `section`, it is rigid in shear and does not warp."""
     made = Scene("feature")
     constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I}
     made.sections["bar"] = dict(section or {"constants": constants, "young": E, "shear_modulus": G, "density": RHO})
@@ -65,7 +65,8 @@ def _coupled() -> Scene:
 
 
 def _coupled_value() -> float:
-    """Returns the rotation of the tip: the compliance between axial force and curvature, times the length."""
+    """Returns the rotation of the tip under the force F: the compliance between axial force and curvature, times F
+    and the length."""
     c = 0.5 * math.sqrt(EA * EI)
     return -c / (EA * EI - c * c) * F * L
 
@@ -79,7 +80,7 @@ def _arc() -> Scene:
 
 
 def _warping() -> Scene:
-    constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "Iw": GIT * L**2 / 9 / E}  # k L = 3
+    constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "Iw": GIT * L**2 / 9 / E}  # sqrt(GIt/(E Iw)) L = 3
     section = {"constants": constants, "young": E, "shear_modulus": G}
     made = _linear({"moment": [F, 0, 0]}, "rx", section=section)
     made.members["bar"]["warping"] = ["fixed", "free"]
@@ -138,8 +139,8 @@ CASES: tuple[Case, ...] = (
 
 
 def adapted(make: Callable[[], Scene], element: Any) -> Scene:
-    """Returns the scene for an element. Without a linear analysis, it is static. It is plane if the element is plane and the
-    scene permits it."""
+    """Returns the scene for an element: with a static analysis if the element has no linear one, and restricted to
+    the xy plane if the element is plane and the loads are in this plane."""
     made = make()
     if made.analyses["a"] == {"linear": {}} and "linear" not in element.analyses:
         made.analyses["a"] = {"static": {"stations": [1]}}
@@ -162,7 +163,8 @@ def _data(made: Scene) -> dict[str, Any]:
 
 
 def outcome(series: Series, exact: float) -> str:
-    """Returns "works (error)", "converges slowly (error)", "wrong by x %", "refused: reason" or "failed: reason"."""
+    """Returns "works (error)", "converges slowly (error)", "wrong by x %", "refused: reason", "failed: reason", "not
+    installed" or, if there is no result and no reason, "no answer"."""
     if series.missing:
         return "not installed"
     errors = [run["values"]["q"] / exact - 1 for run in series.runs if "q" in run.get("values", {})]

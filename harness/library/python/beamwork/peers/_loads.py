@@ -37,8 +37,9 @@ def vectors(load: Load) -> list[Vector]:
 
 
 def nodal(load: Load, mesh: Mesh) -> Mapping[int, Sequence[float]]:
-    """Returns the forces and moments [6] on nodes of the mesh at the factor 1. Loads along members are distributed with the
-    interpolation of the element, without moments of their own: results converge with order 2 for elements of two nodes."""
+    """Returns the forces and moments [6] on nodes of the mesh at the factor 1. Loads along members are distributed
+    with the interpolation of the element, so forces along a member give no moments at the nodes, and results
+    converge with order 2 for elements of two nodes."""
     kind = load.kind
     if kind not in ("force", "moment", "distributed", "distributed_moment"):
         raise Refused(f"{kind}: the driver has forces and moments only")

@@ -103,7 +103,8 @@ def _measures(mesh: Mesh, mode: Any) -> tuple[list[float], list[float]]:
 
 
 def _separated(frequencies: Sequence[float], moves: Any) -> Any:
-    """Returns the motions with those of equal frequencies combined, so that each is along y or along z."""
+    """Returns the motions of the modes. Modes with equal frequencies are combined such that each moves along y or
+    along z."""
     import numpy as np  # pylint: disable=import-outside-toplevel
     begin = 0
     for end in range(1, len(frequencies) + 1):
@@ -134,7 +135,8 @@ def families(mesh: Mesh, frequencies: Sequence[float], modes: Sequence[Any]) -> 
 
 
 def require_plain_mass(scene: Scene) -> None:
-    """Raises Refused if a section is given by a mass matrix with terms off the diagonal."""
+    """Raises Refused if a section is given by a mass matrix with terms off the diagonal, or with masses that differ
+    between the axes."""
     for name, section in scene.sections.items():
         given = section.raw.get("mass")
         if given is not None and (any(given[i][k] != 0 for i in range(6) for k in range(6) if i != k) or

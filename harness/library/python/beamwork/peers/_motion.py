@@ -147,7 +147,7 @@ def lumped_mass(mesh: Mesh) -> list[float]:
 
 
 def continued(vector: Sequence[float], before: Sequence[float]) -> list[float]:
-    """Returns the rotation vector of the same rotation, with the number of turns that is nearest to the vector before."""
+    """Returns the rotation vector of the same rotation that is nearest to the vector before."""
     size = math.hypot(*vector)
     if size < 1e-12:
         size, axis = 0.0, [x / (math.hypot(*before) or 1.0) for x in before]
@@ -270,8 +270,8 @@ def refusal(q: Quantity) -> str:
 
 
 def first_step(scene: Scene, analysis: Analysis) -> float:
-    """Returns the first time step: a 32nd of the motion, or a 16th of the shortest period of the first bending vibration of
-    a member as a cantilever."""
+    """Returns the first time step: the smaller of a 32nd of the motion and a 16th of the shortest period of the
+    first bending vibration of a member as a cantilever."""
     step = analysis.stations[-1] / 32
     for member in scene.members.values():
         s = member.section
@@ -285,7 +285,8 @@ def _numbers(value: Any) -> list[float]:
 
 
 def difference(scene: Scene, names: Sequence[str], a: Mapping[str, Any], b: Mapping[str, Any]) -> float:
-    """Returns the largest difference of values, over their size, or over 1 % of that of others of the same kind and unit."""
+    """Returns the largest difference between the values a and b, relative to the largest of the size of b,
+    near_zero, and 1 % of the size of all values of the same kind and unit."""
     size: dict[Any, float] = {}
     chosen = [q for q in scene.quantities if q.name in names]
     for q in chosen:
@@ -301,7 +302,8 @@ def difference(scene: Scene, names: Sequence[str], a: Mapping[str, Any], b: Mapp
 
 
 def _bound(space: float | None) -> float:
-    """Returns the bound of the change of the values when the time step is halved. space: change since the mesh before."""
+    """Returns the bound of the change of the values when the time step is halved. space: change from the mesh
+    before; None: unknown."""
     return _FIRST_BOUND if space is None else min(max(0.03 * space, LEAST), MOST)
 
 

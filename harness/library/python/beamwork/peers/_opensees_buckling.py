@@ -7,7 +7,7 @@ from typing import Any
 from ._modes import critical_factors
 from .data import Answer, Failed, Refused
 
-_FIRST, _SECOND = 1e-6, 1e-3  # the first displacement over the length or rotation; the second load over the critical one
+_FIRST, _SECOND = 1e-6, 1e-3  # largest displacement/length or rotation under the first loads; second/critical loads
 
 
 def _moved(model: Any, path: float) -> dict[int, list[float]]:
@@ -22,8 +22,8 @@ def _moved(model: Any, path: float) -> dict[int, list[float]]:
 
 
 def _slope(model: Any, path: float) -> Any:
-    """Returns the derivative of the tangent with respect to the loads. The part due to the displacements, which linear
-    buckling neglects, is that of a structure without stresses whose nodes are displaced."""
+    """Returns the derivative of the tangent with respect to the loads. Linear buckling neglects the part due to the
+    displacements. It is the change for a structure without stresses whose nodes are displaced, and is subtracted."""
     out = 0.0
     for sign in (1, -1):
         model.build()

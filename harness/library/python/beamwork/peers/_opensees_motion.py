@@ -169,7 +169,8 @@ def motion(model: Any, analysis: Analysis) -> Answer:
 
 
 def _state(model: Any, nodes: set[str]) -> State:
-    """Returns the state. Rates of rotations are along fixed axes: in the plane and for small rotations also those of nodes."""
+    """Returns the state. Rates of rotations are along fixed axes, which are also the axes of the nodes in the plane
+    and for small rotations."""
     ops = model.ops
     ops.reactions("-dynamic")
     number = {name: model.mesh.node_of[name] for name in nodes}

@@ -1,4 +1,4 @@
-"""Formulations of beamwork, solved in a process of their own, under the same clock as the peers."""
+"""Formulations of beamwork, solved in separate processes and timed with the same clock as the peers."""
 from __future__ import annotations
 
 import json
@@ -25,8 +25,8 @@ def text_of(file: Mapping[str, Any]) -> str:
 
 
 def scene_of(raw: Mapping[str, Any]) -> dict[str, Scene]:
-    """Returns the scene under the name "" and, if quantities belong to several analyses, one scene for each of these, which
-    has no other analyses than are necessary."""
+    """Returns the scene under the name "" and, if quantities belong to several analyses, one scene for each of these
+    with only the necessary analyses."""
     file, name = raw["scene"], raw["scene"]["name"]
     scenes, analyses = {"": Scene.text(text_of(file), name)}, analyses_of(file)
     for asked in analyses if len(analyses) > 1 else ():

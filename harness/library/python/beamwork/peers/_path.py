@@ -11,8 +11,8 @@ from .data import COMPONENTS, Analysis, Answer, Failed, MeshNode, PathPoint, Ref
 
 _STEPS = (0.1, 0.07, 0.05, 0.035, 0.025, 0.0125)  # largest displacement in a step, over the length of the longest member
 _LEAST, _MOST_POINTS, _MOST_REFINEMENTS = 1e-4, 2000, 6
-_FIRST_FACTOR = 1e-3  # change of the load factor that shows its effect
-_MOST_SECANTS, _BALANCED = 10, 1e-9  # reaction of a support without load, over the largest one
+_FIRST_FACTOR = 1e-3  # change of the load factor that gives the first slope of the reaction
+_MOST_SECANTS, _BALANCED = 10, 1e-9  # most solutions for one point; reaction that counts as zero, over the largest reaction
 _APART = 1e-4  # least distance of points for an interpolation, over the length
 _SAME = 1e-6  # change of a coordinate at a limit point, over the length, that ends its refinement
 _TURN = 0.7  # cosine of the largest angle between successive steps

@@ -12,7 +12,7 @@ _SAMPLES = 400
 
 
 def _largest_step(model: Any) -> float:
-    """Returns a step at which the highest frequencies of a rod with free ends are stable."""
+    """Returns a time step for which the method is stable at the highest frequencies of a rod with free ends."""
     s, size = model.section, model.scene.length() / model.number
     stretch = 2 / size * math.sqrt(max(s.EA, *s.GA) / s.rho_A)
     bend = 2 / size * math.sqrt(max(k / i for k, i in zip((s.GIt, s.EIy, s.EIz), s.rho_I)))
@@ -108,7 +108,8 @@ def _state(model: Any, holds: list[str], before: dict[str, list[float]]) -> Stat
 
 
 def motion(model: Any, analysis: Analysis, holds: list[str]) -> Answer:
-    """Solves a motion. The step is as many times shorter than the largest stable one as the door shortened its first step."""
+    """Solves a motion. The time step is the largest stable one times analysis.step/first_step, but at most
+    analysis.step."""
     import elastica
     import numpy as np
 

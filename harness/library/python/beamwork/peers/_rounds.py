@@ -1,5 +1,5 @@
-"""Peers and formulations solve the same meshes in rounds that alternate between them, on one processor: each runs in a
-process of its own, which waits while another computes."""
+"""Peers and formulations solve the same meshes in rounds that alternate between them, on one processor: each runs in
+a separate process, which waits while another computes."""
 from __future__ import annotations
 
 import dataclasses
@@ -114,7 +114,8 @@ class Compared:
         self.spent = 0.0
 
     def round(self, n: int) -> None:
-        """Solves the mesh, unless this is of no use."""
+        """Solves a mesh with n elements, unless a coarser mesh exceeded the time limit, or this mesh failed before
+        or has already taken _ENOUGH seconds."""
         last = self.series.runs[-1] if self.series.runs and self.series.runs[-1]["elements"] == n else None
         if self.stopped or (last is not None and ("values" not in last or self.spent > _ENOUGH)):
             return
@@ -147,7 +148,7 @@ class Compared:
 
 def take_turns(compared: Sequence[Compared], elements: Sequence[int], rounds: int,
             progress: Callable[[str], None] = lambda text: None) -> None:
-    """Runs the meshes. In each round, each has its turn."""
+    """Solves all meshes. In each round, every peer and formulation solves the mesh once."""
     try:
         for n in elements:
             for one in compared:

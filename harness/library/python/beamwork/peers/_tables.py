@@ -11,7 +11,7 @@ from typing import Any
 
 from ._ranking import rankings
 
-_OURS = 3  # formulations of beamwork in the text, for each error
+_OURS = 3  # number of formulations of beamwork that the text lists for each error
 _COLUMNS = ("case", "parameters", "quantity", "level", "place", "program", "ours", "elements", "unknowns", "systems", "work", "error",
             "ratio", "seconds", "reason")
 
@@ -28,7 +28,7 @@ def _row(row: Mapping[str, Any], unit: float | None) -> str:
 
 
 def _refusals(record: Mapping[str, Any]) -> Iterator[str]:
-    """Yields who solved nothing, and why."""
+    """Yields "NAME: REASON" for each program or formulation that solved nothing."""
     for series in record["series"]:
         if not any("values" in run for run in series["runs"]):
             told = [series["missing"]] + [run[word] for run in series["runs"] for word in ("refusal", "failure") if word in run]
@@ -63,7 +63,7 @@ def text(record: Mapping[str, Any]) -> str:
 
 
 def rows(record: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    """Yields a row for each program, quantity and error. place 0: the error is not reached, for this reason."""
+    """Yields a row for each program, quantity and error. place 0: the error is not reached, and `reason` states why."""
     unit = record["unit"].get("seconds")
     ours = {series["name"]: series["ours"] for series in record["series"]}
     for quantity, level, ranked in rankings(record):

@@ -159,10 +159,10 @@ class Mesh:
 
 @dataclasses.dataclass
 class State:
-    """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components, for each
-    node of the scene. None: the program does not compute it. compliance: 6 x 6 matrix of the node of a compliance
-    analysis. In motions also rate, the velocities, along fixed axes, and angular velocities, along the axes of the node, and
-    energy, by the names kinetic, strain and energy."""
+    """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components,
+    for each node of the scene. None: the program does not compute it. compliance: 6 x 6 matrix of the node of a
+    compliance analysis. In motions, rate: velocities along fixed axes, and angular velocities along the axes of
+    the node; energy: the energies by the names kinetic, strain and energy (their sum)."""
     u: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     reaction: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     compliance: Sequence[Sequence[float | None]] | None = None
@@ -228,7 +228,7 @@ class LoadSteps:
             raise Failed(f"Newton's method does not converge after path parameter {sum(self.taken):g}")
 
     def done(self, step: float, turn: float) -> None:
-        """turn: largest rotation of a node in the step [rad]."""
+        """Records a step that succeeded. turn: largest rotation of a node in the step [rad]."""
         self.taken.append(step)
         self.step = step * min(2.0, self._TURN / turn if turn > 0 else 2.0)
         self._known[self.key] = self.taken
@@ -320,7 +320,8 @@ class Scene:
 
 
 def interpolated(at: Sequence[float], value: Sequence[float], x: float) -> float:
-    """Returns the value at x of a line through the points."""
+    """Returns the value at x of the piecewise linear function through the points, which is extrapolated beyond its
+    ends."""
     i = min(max(bisect.bisect_right(at, x), 1), len(at) - 1)
     return value[i - 1] + (value[i] - value[i - 1]) * (x - at[i - 1]) / (at[i] - at[i - 1])
 

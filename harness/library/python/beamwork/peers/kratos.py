@@ -34,7 +34,7 @@ _TOLERANCE = 1e-10
 _ROUND_OFF = 1e-14  # absolute tolerance of rotations, and of displacements over the length
 _MOST_ITERATIONS = 100
 _LEAST_STEP = 1 / 64
-_TURN = 0.5  # [rad] most rotation of a node in a step, in which Newton's method may find another equilibrium
+_TURN = 0.5  # [rad] largest rotation of a node in a step; with a larger one, Newton's method may find another equilibrium
 _STEPS: dict[tuple[str, int, str], int] = {}  # steps between stations that converged last
 
 

@@ -70,8 +70,8 @@ class Corotational(Model):
         self.build({a.kind for a in scene.analyses.values()} == {"linear"})
 
     def build(self, linear: bool = False, moved: Mapping[int, Vector] | None = None) -> None:
-        """linear: with the linear transformation, and with elements without second-order moments. moved: displacements and
-        rotations of nodes by which a structure without stresses differs."""
+        """Builds the model without loads. linear: with the linear transformation, and with elements without
+        second-order moments. moved: displacements and rotations of the nodes of a model without stresses."""
         ops, scene, mesh, self.linear = self.ops, self.scene, self.mesh, linear
         name = "forceBeamColumn" if linear and self.name.startswith("forceBeamColumn") else self.name
         ops.wipe()

@@ -40,8 +40,8 @@ def _values(scene: Scene, element: Any, answers: dict[str, Answer]) -> dict[str,
 
 
 def _groups(scene: Scene, asked: set[str]) -> list[list[Analysis]]:
-    """Returns the analyses with quantities, each after that about whose state it is. Each group is solved by a model of its
-    own, so that no analysis starts from the state of another."""
+    """Returns a group for each analysis with quantities: the analysis about whose state it is, if any, then the
+    analysis. Each group is solved with a separate model, so that no analysis starts from the state of another."""
     wanted = [a for a in scene.analyses.values() if a.name in asked]
     states = {a.about for a in wanted}
     return [[*([scene.analyses[a.about]] if a.about else []), a] for a in wanted if a.name not in states]
