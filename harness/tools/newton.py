@@ -3,8 +3,8 @@
 
 usage: newton.py PROGRAM -o FILE
 
-Writes JSON for the report: "singles", targets tried in one step; "contests", one comparison per case, formulation
-and first step, with both forms; "histories", the corrections and residuals of every iteration."""
+Writes JSON for the report: `singles`, targets tried in one step; `contests`, one comparison per case, formulation
+and first step, with both forms; `histories`, the corrections and residuals of every iteration."""
 import argparse
 import json
 import subprocess
