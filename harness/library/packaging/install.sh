@@ -51,8 +51,10 @@ for file in harness/library/python/*.ipynb; do put 644 "$file" "$data/examples/p
 for file in $(find reports reference -name test -prune -o -name __pycache__ -prune -o -type f -print | sort) elements/*.md; do
     put 644 "$file" "$data/$file"
 done
-file=harness/library/python/beamwork/peers/_ranking.py # used by the report, also where the module is not installed
+# The report also ranks programs where the Python module is not installed; the module has a link to the same file.
+file=harness/library/python/beamwork/peers/_ranking.py
 put 644 "$file" "$data/$file"
+ln -sfr "$DESTDIR$data/$file" "$DESTDIR$PYTHONDIR/${file#harness/library/python/}"
 
 for page in "$build"/man/*.[0-9]; do put 644 "$page" "$SHAREDIR/man/man${page##*.}/${page##*/}"; done
 put 644 harness/cli/beamwork.bash "$SHAREDIR/bash-completion/completions/beamwork"
