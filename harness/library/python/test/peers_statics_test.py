@@ -55,9 +55,9 @@ class Truss(path.Path if path else object):
 class Walk(ModuleTest):
     """The path of a known function must be followed past limit points of the load factor and of a coordinate."""
 
-    def follow(self, to):
-        analysis = types.SimpleNamespace(raw={"to": to})
-        return path.follow(Truss(), analysis, types.SimpleNamespace(length=lambda: 1.0))
+    def follow(self, to, truss=None, mesh=("truss", 1)):
+        analysis = types.SimpleNamespace(name="path", raw={"to": to})
+        return path.follow(truss or Truss(), analysis, types.SimpleNamespace(of="", length=lambda: 1.0), mesh)
 
     def test_limits(self):
         answer = self.follow([-0.4, -0.7])
@@ -72,7 +72,30 @@ class Walk(ModuleTest):
         truss = Truss()
         truss.move = lambda place, value: -7
         with self.assertRaisesRegex(data.Failed, "no equilibrium"):
-            path.follow(truss, types.SimpleNamespace(raw={"to": [-1]}), types.SimpleNamespace(length=lambda: 1.0))
+            self.follow([-1], truss)
+
+    def test_again(self):
+        """Steps that failed are not tried again for the same mesh."""
+        begun = []
+
+        class Stiff(Truss):
+            """Has no solution if a step is longer than 0.06."""
+
+            def begin(self):
+                super().begin()
+                begun.append(0)
+
+            def move(self, place, value):
+                if abs(value - self.point().values[place]) > 0.06:
+                    raise data.Failed("too far")
+                return super().move(place, value)
+
+        first = self.follow([-0.4], Stiff(), ("stiff", 1))
+        count = len(begun)
+        again = self.follow([-0.4], Stiff(), ("stiff", 1))
+        self.assertGreater(count, 1)
+        self.assertEqual(len(begun), count + 1)
+        self.assertEqual([p.values for p in again.path], [p.values for p in first.path])
 
 
 class Continuation(ModuleTest):

@@ -64,7 +64,7 @@ class _Path(HeldPath):
 
 def follow_path(model: Any, analysis: Analysis) -> Answer:
     path = _Path(model, analysis)
-    answer = follow(path, analysis, model.scene)
+    answer = follow(path, analysis, model.scene, (model.name, len(model.mesh.elements)))
     model.mbs.SetObjectParameter(model.controls[path.places[path.active]], "activeConnector", False)
     path.begin()
     return answer

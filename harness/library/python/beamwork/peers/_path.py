@@ -251,12 +251,18 @@ class _Walk:
         self.points.append(best)
 
 
-def follow(path: Path, analysis: Analysis, scene: Scene) -> Answer:
-    """Follows a path from the undeformed structure; if this fails, again in smaller steps."""
-    why = Failed("")
-    for size in _STEPS:
+_known: dict[tuple[str, str, int, str], float] = {}  # largest steps with which paths were followed
+
+
+def follow(path: Path, analysis: Analysis, scene: Scene, mesh: tuple[str, int]) -> Answer:
+    """Follows a path from the undeformed structure; if this fails, again in smaller steps. Later rounds begin with the steps
+    that succeeded in the first one. mesh: name and number of elements."""
+    key, why = (scene.of, *mesh, analysis.name), Failed("")
+    for size in [step for step in _STEPS if step <= _known.get(key, math.inf)]:
         try:
-            return _Walk(path, analysis, scene.length(), size).follow()
+            answer = _Walk(path, analysis, scene.length(), size).follow()
+            _known[key] = size
+            return answer
         except Failed as error:
             why = error
     raise why

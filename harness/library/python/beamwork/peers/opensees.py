@@ -166,7 +166,7 @@ class Corotational(Model):
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
         if analysis.kind == "continuation":
-            answer = follow(PathOfModel(self, analysis), analysis, self.scene)
+            answer = follow(PathOfModel(self, analysis), analysis, self.scene, (self.name, len(self.mesh.elements)))
             self.base = analysis.name
             return answer
         if self.base or self.linear != (analysis.kind == "linear"):

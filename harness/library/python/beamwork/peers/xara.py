@@ -265,7 +265,7 @@ class Frame(Model):
         if analysis.kind == "modal":
             return self._modal(analysis)
         if analysis.kind == "continuation":
-            return follow(PathOfFrame(self, analysis), analysis, self.scene)
+            return follow(PathOfFrame(self, analysis), analysis, self.scene, (self.element, len(self.mesh.elements)))
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
 
     def no_turns(self) -> dict[str, Any]:
