@@ -6,7 +6,7 @@ counted work on that mesh, so two runs give the same order. Costs that differ by
 model tie. A formulation that does not pass in the requested quantity is listed but is never the cheapest. Variants
 whose options change neither errors nor work are omitted.
 
-    found = answers.answer(point, quantity, level) # quantity: a name, or ALL
+    found = answers.answer(point, quantity, level) # quantity: a name, ALL, or a list of names
     found.best [Way] the cheapest formulation and those whose costs tie with it; may be empty
     `found.dearer` [Way] the other formulations that are within the level and pass, by cost
     found.defective [Way] formulations within the level but with a verdict other than pass, by cost
@@ -150,7 +150,7 @@ def by_cost(w):
 
 
 def answer(point, quantity, level):
-    quantities = judged(point) if quantity == ALL else [quantity]
+    quantities = quantity if isinstance(quantity, list) else judged(point) if quantity == ALL else [quantity]
     out, sound = Answer(quantity, level), []
     for series in point.series:
         if repeats(point, series, quantities):

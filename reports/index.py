@@ -1,59 +1,11 @@
 """First page: the results, the verdicts, and the formulations of lowest cost for every case."""
+import collections
 import functools
 import math
-import re
 from dataclasses import dataclass
 
-import h5py
-
-from reports import answers, problems, profiles, verdicts
-from reports.data import text
+from reports import answers, problems, profiles, questions, verdicts
 from reports.profiles import panel
-
-# A case belongs to the first of these kinds for which it has an analysis.
-KINDS = (
-    ("stiffness and compliance", ("compliance",)),
-    ("past a limit point", ("continuation",)),
-    ("rotating steadily", ("rotation",)),
-    ("buckling", ("buckling",)),
-    ("vibration", ("modal",)),
-    ("large displacements", ("static",)),
-    ("linear statics", ("linear",)),
-)
-OTHER = "others"
-ENTRY = re.compile(r"^  [^\s:]+: \{(\w+)[:}]", re.M)
-
-
-def analyses_in(scene):
-    block = re.search(r"^analyses:\n((?:  .*\n)*)", scene, re.M)
-    return ENTRY.findall(block.group(1)) if block else []
-
-
-def kind_of(analyses):
-    return next((kind for kind, names in KINDS if set(names) & set(analyses)), OTHER)
-
-
-def scenes(path):
-    """Returns {case: scene file}. The scene file is that of the defaults or of the first point, or "" if the results
-    contain none."""
-    found = {}
-    with h5py.File(path) as file:
-        for name, group in file["cases"].items():
-            rows = group["scenes"][()] if "scenes" in group else ()
-            written = {text(row["point"]): text(row["scene"]) for row in rows}
-            found[name] = written.get("default", next(iter(written.values()), ""))
-    return found
-
-
-def grouped_by_kind(cases, path):
-    """Returns [(kind, [data.Case])] of a results file, in the order of KINDS."""
-    written, groups = scenes(path), {}
-    for case in cases:
-        found = kind_of(analyses_in(written.get(case.name, "")))
-        groups.setdefault(found, []).append(case)
-    order = [kind for kind, _ in KINDS] + [OTHER]
-    return sorted(groups.items(), key=lambda item: order.index(item[0]))
-
 
 AGREED = "agreement"  # kind of a value in the results on which at least two families of formulations agree
 
@@ -117,6 +69,59 @@ def rows_agreed(cases, level):
         names = [q for q in point.units if q not in known]
         found += [row for row in (row_of(case, q, level) for q in names) if row and row.errors]
     return found
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """The verdicts of a formulation by the size of the error of its limit."""
+
+    judged: int = 0
+    passes: int = 0
+    biased: int = 0  # different limit within the tolerance
+    beyond: int = 0  # limit outside the tolerance, at most PERCENT away
+    far: int = 0  # limit more than PERCENT away
+    derived: int = 0  # of the last two: limits that follow from the equations as printed
+    unknown: int = 0  # inconclusive
+    none: int = 0  # no solution, or not applicable
+
+
+PERCENT = 0.01
+COLUMNS = {"pass": "passes", "low order": "passes", "biased": "biased", "predicted": "beyond", "wrong": "beyond",
+           "undecided": "unknown", "failed": "none"}  # column of problems.GROUPS -> member of Sizes
+
+
+def sizes_of(cases):
+    """Returns {formulation: Sizes} over all quantities and parameters, without aliases of quantities."""
+    found = {}
+    for row in verdicts.rows(cases):
+        group = problems.COLUMN.get(row.verdict.verdict)
+        if group is None or row.standing == verdicts.ALIAS:
+            continue
+        counts = found.setdefault(row.formulation, collections.Counter())
+        name = COLUMNS[group]
+        far = name == "beyond" and abs(row.verdict.error) > PERCENT
+        counts.update({"judged": 1, "far" if far else name: 1, "derived": group == "predicted"})
+    return {key: Sizes(**counts) for key, counts in found.items()}
+
+
+def tolerance_of(cases):
+    """Returns the relative tolerance of most reference values, or NaN."""
+    known = collections.Counter(float(f"{v.tolerance / abs(v.truth):.3g}") for c in cases for p in c.points
+                                for s in p.series for v in s.verdicts if v.truth and math.isfinite(v.tolerance))
+    return known.most_common(1)[0][0] if known else math.nan
+
+
+AS_MANY = 0.01  # largest difference from the largest share of solved problems
+
+
+def default_choice(rows, sizes):
+    """Returns the problems.TrustRow of the formulation to use by default: of those without a limit outside the tolerance
+    and without a failure that solve the most problems, the one with the lowest cost. Returns None if there is none."""
+    sound = [r for r in rows if math.isfinite(r.solved) and r.key in sizes
+             and not (sizes[r.key].beyond or sizes[r.key].far or sizes[r.key].none)]
+    most = max((r.solved for r in sound), default=0)
+    able = [r for r in sound if r.solved >= most - AS_MANY and math.isfinite(r.factor)]
+    return min(able, key=lambda r: (r.factor, -r.share, r.key), default=None)
 
 
 NAMED = 3  # largest number of cases that a sentence names
@@ -204,7 +209,7 @@ PLACES = (  # pages to read next, if the site has them
     ("deviations.html", "causes"),
     ("glossary.html", "glossary"),
 )
-FIGURE = (300, 165)
+FIGURE = (300, 150)
 
 
 def formulation_rows(cases):
@@ -229,11 +234,14 @@ def write(site):
     compared = profiles.Compared(site.cases)
     rows = problems.trust_table(site.cases, compared.problems, compared.keys)
     lines = {found.case.name: found for found in answers.lines_of_cases(site.cases)}
+    groups, sizes = questions.grouped(site.cases), sizes_of(site.cases)
     written = {file for file, _ in site.navigation}
     site.write("index.html", "index.html", about=site.about, cases=site.cases, lines=lines, level=LEVEL,
                agreed=rows_agreed([c for c in site.cases if c.name not in lines], LEVEL),
                places=[place for place in PLACES if place[0].partition("#")[0] in written],
-               groups=grouped_by_kind(site.cases, site.results),
+               groups=groups, sizes=sizes, tolerance=tolerance_of(site.cases),
+               others=[c for c in site.cases if c.name not in lines],
+               choice=default_choice(rows, sizes) if compared.any else None,
                speed=of_speed(compared, rows),
                trust=of_trust(site.cases, rows), truths=of_truths(site.cases),
                profile=panel(site, compared, profiles.PICTURES[0], LEVEL, "profile", FIGURE)

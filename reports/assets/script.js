@@ -189,6 +189,15 @@ addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
 
 if (document.querySelector("div.viewer")) document.head.append(Object.assign(document.createElement("script"), { src: "viewer.js" }));
 
+// The list of the first page shows the cases whose names contain what is typed.
+const find = document.getElementById("find");
+if (find) {
+  find.hidden = false;
+  find.addEventListener("input", () => all(document, ".answers li").forEach(row => {
+    row.hidden = !row.firstElementChild.textContent.includes(find.value.trim());
+  }));
+}
+
 // Wide tables can be reached from the keyboard, and paper shows what is folded.
 const reach = () => all(document, ".scroll, div.figure").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
 addEventListener("load", reach); addEventListener("resize", reach);

@@ -14,29 +14,6 @@ from reports.test.results import case, series
 from reports.verdicts import UNJUDGED
 
 
-SCENE = """beamwork: 1
-nodes:
-  node_0: {at: [0, 0, 0], hold: all}
-analyses:
-  analysis_0: {static: {steps: 4}}
-  "second": {compliance: {about: analysis_0, node: node_0}}
-quantities:
-  "linear": {displacement: {analysis: analysis_0}}
-"""
-
-
-class Kinds(unittest.TestCase):
-
-    def test_analyses_of_a_scene(self):
-        self.assertEqual(index.analyses_in(SCENE), ["static", "compliance"])
-        self.assertEqual(index.analyses_in("beamwork: 1\n"), [])
-
-    def test_the_first_kind_counts(self):
-        self.assertEqual(index.kind_of(["static", "compliance"]), "stiffness and compliance")
-        self.assertEqual(index.kind_of(["modal", "buckling"]), "buckling")
-        self.assertEqual(index.kind_of([]), index.OTHER)
-
-
 class Agreed(unittest.TestCase):
 
     def tried(self, key, limit, errors):
@@ -129,7 +106,10 @@ class Small(ProgramTest):
         page = self.whole((site / "index.html").read_text(encoding="utf-8"))
         self.assertEqual(page.count("<figure>"), 1)
         answers = page[page.index('id="answers"'):page.index("</section>")]
-        self.assertRegex(answers, r'n&nbsp;=&nbsp;\d+ <span class="pass" title="[^"]*">✓</span>')
+        self.assertRegex(answers, r'<i>n&nbsp;=&nbsp;\d+</i> <i class="pass" title="pass">✓</i>')
+        self.assertIn('<th class="n">pass: within&nbsp;0.1\u00a0%</th>', page)
+        for level in ("10", "1", "0.1", "0.01"):
+            self.assertIn(f">{level} %</label>", answers)
         table = (site / "profiles.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(table[0], "picture,level,factor,beamw_vlasov,collocation")
         self.assertEqual(len({len(line.split(",")) for line in table}), 1)
