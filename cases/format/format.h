@@ -36,7 +36,8 @@ typedef struct mistakes {
     mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 
-/* Adds an error, unless the list already contains an error at the same position. */
+/* Adds an error, unless the list already contains an error at the same position. If the list is
+ * full, the last of the errors in the file is only counted. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif

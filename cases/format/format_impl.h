@@ -36,8 +36,8 @@ const scope *scope_find(const scope *names, const char *name, size_t length);
 /* Returns the known name, constant or function that is nearest to a misspelt name, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
 /* Returns 1 if `key` can be a new name. Such a name has at most 40 letters, digits and underscores,
- * starts with a letter, and differs from all other names and functions. Otherwise reports an error
- * and returns 0. */
+ * does not start with a digit, and differs from all other names, functions and constants. Otherwise
+ * reports an error and returns 0. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and the parameters `names`. The caller frees it in either
@@ -155,13 +155,15 @@ int fields_have(const fields *f, const char *key);
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* Reads a vector and returns 1. If the key is missing, returns 0 and does not change out[count]. */
+/* Reads a vector and returns 1, even after an error, which is reported. If the key is missing,
+ * returns 0 and does not change out[count]. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
 /* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
  * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
-/* Reads a 6 x 6 matrix, given by its 36 entries or by the six of its diagonal. Returns 0 and does
- * not change `out` if the key is missing or after an error. */
+/* Reads a 6 x 6 matrix, given by its 36 entries, or by the six of its diagonal (the other entries
+ * of `out` then do not change). Returns 0 and does not change `out` if the key is missing or after
+ * an error. */
 int fields_matrix(const fields *f, const char *key, double out[36]);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
 /* Returns the index in "a|b|c" of the value of the key: a word, or a parameter whose value is a
@@ -236,8 +238,9 @@ int expression_number(const document_node *n, const scope *names, mistakes *m, d
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Replaces the keys `file`, `at` and `value` of all tables below the node by the numbers in the
- * files. Paths are relative to the folder of the scene file, whose path is `beside`, or NULL. */
+/* Replaces the keys `file`, `at` and `value` of all tables, and the files of `shifts`, below the
+ * node by the numbers in the files. Paths are relative to the folder of the scene file, whose path
+ * is `beside`, or NULL. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],

@@ -95,8 +95,9 @@ enum {
 /* Table of these parameters. */
 extern const parameter_type sheet_parameters[];
 
-/* Sets a steel-like sheet section with its width along the local z axis of the member. If
- * shear_factor is 0, the shear factor is computed from Poisson's ratio. */
+/* Sets the rectangular section of a sheet, with its width along the local z axis of the member, and
+ * with Iw and the Wagner constant of a thin sheet. If shear_factor is 0, the shear factor is
+ * computed from Poisson's ratio. */
 void sheet_section(double width, double thickness, double young, double poisson,
                    double shear_factor, section_spec *out);
 

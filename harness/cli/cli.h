@@ -253,8 +253,9 @@ typedef struct scenes {
 } scenes;
 
 /* Reads all files that --scene gives: single files, and every *.yaml of a folder in the order of
- * names. Two cases with the same name are an error. Returns EXIT_AS_EXPECTED or, after printing
- * error messages, another exit status. */
+ * names. Adds the built-in cases if they are requested, or if --scene is not given. Two cases with
+ * the same name are an error. Returns EXIT_AS_EXPECTED or, after printing error messages, another
+ * exit status. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
 /* Reads the reference values of each file, the list of known deviations, user tables and, if

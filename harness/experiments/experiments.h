@@ -322,7 +322,7 @@ typedef struct certificate_request {
     void (*hash)(const element_type *, char out[DIGEST_TEXT]);
 } certificate_request;
 
-/* Call certificates_free after a failure as well. */
+/* Call certificate_free after a failure as well. */
 status certificate_find(const certificate_request *, certificate **out, fault *f);
 void certificate_free(certificate *all, int count);
 
@@ -337,7 +337,7 @@ typedef struct certificates {
     int count, verbose, quiet; /* verbose, quiet: see certificate_text */
 } certificates;
 
-/* The request is a certificate_request. The result is a `certificates`, which certificates_free
+/* The request is a certificate_request. The result is a `certificates`, whose list certificate_free
  * frees. */
 extern const experiment_type experiment_element_test;
 
@@ -967,8 +967,9 @@ typedef struct restart {
 /* Checks before the solution that final states can be stored. REFUSED: the scene has no motion, or
  * a load has integral feedback, whose integral is not stored. */
 status restart_possible(const scene *, fault *);
-/* Writes the final states of the solved motions to a file, with their scene, formulation and
- * mesh. The file has a temporary name until it is complete. */
+/* Writes the final states of the solved motions to a file, with their scene, formulation and mesh.
+ * REFUSED: the scene cannot be written as a scene file. The file has a temporary name until it is
+ * complete. */
 status restart_write(const char *path, const solution_request *, const sweep *, fault *);
 /* Reads a file of final states. FAULT: the file is missing, damaged or of another kind. Call
  * restart_free after a failure as well. */

@@ -261,7 +261,8 @@ status accepted_read(const char *path, hid_t file, fault *f);
 
 status agreements_add(const sweep *s, const truths *t, int index, evaluation *out, fault *f);
 
-/* Adds the verdicts from number `first` on to the coverages of an evaluation. */
+/* Adds the verdicts from number `first` on, if they have an exact reference value, to the coverages
+ * of an evaluation. */
 status coverage_count(const sweep *s, int first, evaluation *out, fault *f);
 
 /* Mode shapes at one value of a parameter, matched with those at another value. */

@@ -206,8 +206,8 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Returns 1 if the row gives a formulation and a number of elements where its kind requires them,
- * and not otherwise. */
+/* Returns 1 if the row is a derived limit with a formulation and without a number of elements, or
+ * another row with both or neither. */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';

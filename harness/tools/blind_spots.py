@@ -94,8 +94,8 @@ def band_of(v, rules):
 
 
 def moved_of(v):
-    """Returns the allowed difference of the limit from the committed limit, or infinity if an exact reference value
-    checks the limit."""
+    """Returns the allowed difference of the limit from the committed limit, or infinity if there is no committed
+    limit or an exact reference value checks the limit as closely."""
     if v["point"] != "default" or v["limit"] is None or v["verdict"] in UNJUDGED:
         return math.inf
     slack = MOVED * max(abs(v["limit"]), scale_of(v))

@@ -35,7 +35,7 @@ def report(results, folder, *options):
 
 
 def drawn(folder, *selection, options=()):
-    """Returns the report of a run of verify, which is written with these options."""
+    """Runs verify for a selection, writes its report with these options, and returns the folder of the report."""
     results, site = folder / "results.h5", folder / "site"
     run("verify", *selection, "-o", results)
     done = report(results, site, *options)

@@ -89,7 +89,7 @@ def verdicts(shown: Any) -> Any:
 
 
 def records(shown: Any, x: str, y: str, by: str | Sequence[str], log: bool) -> Any:
-    """Draws a column over another, with a line for each value of the columns `by`."""
+    """Draws column y over column x, with a line for each combination of values of the columns `by`."""
     keys = [by] if isinstance(by, str) else list(by)
     figure, (ax, ) = _panels(1)
     for key in (x, y, *keys):

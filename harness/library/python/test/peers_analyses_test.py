@@ -71,7 +71,7 @@ class Several(PeerTest):
 
 
     def test_convergence_of_newton(self):
-        """A converged state of Kratos must be in balance: its criterion must not be met by small displacements."""
+        """A converged state of Kratos must be in equilibrium: small increments alone must not count as convergence."""
         run = self.run_of("kratos", "corotational", cantilever({"path": {"static": {"stations": [0.25, 0.5, 0.75, 1]}}}))
         self.assertAlmostEqual(run["values"]["path"], 0.60344, delta=5e-4)  # xara, exact_3: 0.60345
 
