@@ -199,7 +199,8 @@ static status stiffness_here(const absolute_place *at, double K[])
     return (status)outcome;
 }
 
-/* Computes B [7n x strains], the derivative of the positions of the nodes. */
+/* Computes B [7 nodes x strains], the derivative of the states of the nodes with respect to the
+ * strains. */
 static void motion(const absolute_place *at, double B[])
 {
     const element_data *d = at->data;
@@ -233,7 +234,7 @@ static void stresses(const absolute_place *at, const double F[], double sigma[])
     }
 }
 
-/* Adds the change of sigma for constant F to C. */
+/* Adds the change of the stresses sigma due to the strains, for constant F, to C. */
 static void add_turning(const absolute_place *at, const double F[], double C[])
 {
     const double l = at->data->length;

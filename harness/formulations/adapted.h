@@ -29,8 +29,8 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
-/* Copies the pointers to the original data of the elements for one call of the type. Returns their
- * number, at most ADAPTED_TOGETHER. */
+/* Copies the pointers to the data of the given type for one call of it. Returns their number, which
+ * is at most ADAPTED_TOGETHER. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])
@@ -41,11 +41,12 @@ static inline int adapted_owns(int count, const element_data *const data[],
     return part;
 }
 
-/* Computes the Jacobian J and the second derivatives H by finite differences, for a type that
- * computes e, or e and J (differences.c). */
+/* Computes the requested strains e, Jacobian J and second derivatives H with the functions of the
+ * given type. J and H that it does not compute are obtained by finite differences (differences.c).
+ * They are NaN if the history that the type requires is NULL. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
-/* Computes the strains of many elements with one call of strain_many for all perturbed states.
- * Requires strain_many. */
+/* Like differences_strain, for many elements. The perturbed states are passed to strain_many in
+ * groups. Requires strain_many. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
 /* Computes the second derivatives H of the strains by finite differences of the Jacobian.
@@ -55,13 +56,14 @@ typedef void differences_jacobian(const element_data *d, const node_state x[],
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* Requires force_many. */
+/* Like relative_stress, for many elements. The perturbed states are passed to force_many in groups.
+ * Requires force_many. */
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
 /* Computes the derivative of C in the undeformed state, in the direction of the strains that belong
- * to the prestress sigma, by finite differences. */
+ * to the prestress sigma, by finite differences. G is NaN if the element cannot be evaluated. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 /* Strains and stresses of a type that computes forces with a history (absolute.c). The strains are
@@ -76,7 +78,7 @@ int (*absolute_strains(int nodes))(const double options[]);
 void absolute_strain(const element_data *d, const node_state x[], strain_output *out);
 status absolute_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Requires force_many. */
+/* Like absolute_stress, for many elements. Requires force_many. */
 void absolute_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
 /* The history of the completed type starts with the values of the given type. Then follow, for each

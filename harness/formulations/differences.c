@@ -339,7 +339,7 @@ static int leaves_h(const element_data *d)
     return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
 }
 
-/* Returns the outputs that the type itself computes. The others are NULL. */
+/* Returns the requested outputs that the type itself computes. The others are NULL. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
     strain_output requested = *out;

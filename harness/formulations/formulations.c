@@ -426,8 +426,9 @@ status select_begin(const char *expression, select_words *words, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the name that is most similar to the first unknown part of case/parameters/formulation;
- * NULL: all parts are known. */
+/* Compares the parts of a word case/parameters/formulation with the known names. Returns the name
+ * that is most similar to the first part that resembles a name without being one; NULL: there is no
+ * such part. */
 static const char *nearest(const char *word)
 {
     for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {

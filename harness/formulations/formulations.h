@@ -11,7 +11,7 @@
 #include "elements/shared/status.h"
 
 /* Sets *out to the complete interface of the same element, or to `given` if nothing is missing.
- * REFUSED: the type is inconsistent. */
+ * REFUSED: the members of the type contradict each other, or a number exceeds its limit. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
@@ -49,16 +49,17 @@ enum { ASSIGNMENT_VALUE = 64 };
  * the text and, for an unknown name, the most similar name. */
 status assignment_set(const assignment_list *, const char *text, double value[], int any[],
                       int *index, fault *f);
-/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which each name may occur once. REFUSED:
- * assignment_set rejects a part, or a name occurs twice. */
+/* Sets the parameters of assignments "NAME=VALUE" with the separator of the list between them. Each
+ * name may occur once. REFUSED: assignment_set rejects an assignment, an assignment is longer than
+ * 127 characters, or a name occurs twice. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
 /* Writes the parameters in the form that assignment_parse reads. Only values that differ from their
  * defaults are written, in the order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads a number of any size, or the name of a choice, which gives its index. Returns 0 if the text
- * is neither. */
+/* Reads the name of a choice, which gives its index, or, for a parameter without choices, a number,
+ * which may be outside the range. Returns 0 if the text is neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when it is read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
@@ -135,8 +136,9 @@ int formulation_choice(const element_type *type, int index, int choice, formulat
 /* Returns the features that options with other values than the defaults affect (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
 
-/* Adds a formulation in the form of the option -f, or "all". REFUSED: the message gives the reason,
- * for example that there are more than `most`. */
+/* Adds a formulation in the form of the option -f, or all formulations if the text is "all".
+ * REFUSED: formulation_parse rejects the text, the formulation is already in the list, or the list
+ * would have more than `most` entries. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
 enum { FORMULATIONS_MOST_LOADED = 16 };
@@ -146,14 +148,14 @@ const element_type *formulations_at(int i);
 const element_type *formulations_named(const char *name, size_t length);
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
- * formulations_accept has accepted other formulations but not this one. Verdicts on such a
- * formulation affect the exit status only if the user loaded or named it (sweep_gates). */
+ * formulations_accept was called, but not for this formulation. Verdicts on such a formulation
+ * affect the exit status only if the user loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
 /* Marks a formulation as accepted (reference/accepted.csv). An unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. REFUSED: the message gives the reason. The caller keeps ownership of the type and of
- * `from`, the value of
- * --element (NULL: none). */
+/* Adds a type. REFUSED: its name is in use or is a word of the command line, adapters_complete
+ * rejects it, or FORMULATIONS_MOST_LOADED types are loaded. The caller keeps ownership of the type
+ * and of `from`, the value of --element (NULL: none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type; NULL: the type was not loaded. */
 const char *formulations_element(const element_type *t);
@@ -170,8 +172,9 @@ void process_limit(int seconds);
 #define DAMPING_ROUNDING 1e-10
 
 /* Computes B: the damping matrix V [n x n], scaled to diagonal entries of 1 or -1, so that large
- * and small entries count alike. C: stiffness at rest. Diagonal entries below round-off, relative
- * to C, are not scaled up. Returns n^2, or the index of the first entry that is NaN or Inf. */
+ * and small entries count alike. C: stiffness at rest. If |V_ii| is below 1e-14 of C_ii times the
+ * longest relaxation time max |V_kk|/C_kk, V_ii is scaled by this limit instead, so that round-off
+ * is not scaled up. Returns n^2, or the index of the first entry of V that is NaN or Inf. */
 int damping_scale(int n, const double C[], const double V[], double B[]);
 
 /* Parameter points of a case: conversion between text and values. */
@@ -183,8 +186,9 @@ int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
 /* Sets a parameter. assignment: "NAME=VALUE". */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
-/* Reads "NAME=VALUE;NAME=VALUE". Other parameters keep their defaults. A value "*" is skipped and
- * marked in any[] (may be NULL). "*" alone marks all parameters of the original source. */
+/* Reads "NAME=VALUE;NAME=VALUE". Other parameters are set to their defaults. A value "*" means the
+ * default and is marked in any[]; "*" alone marks all parameters of the original source. any NULL:
+ * nothing is marked, and only "*" alone is allowed. REFUSED: assignment_parse rejects the text. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* Writes the parameters in the form that parameters_parse reads. Default values are omitted. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
@@ -205,7 +209,8 @@ typedef struct parameters_words {
     char text[CASE_MAX_PARAMETERS][128];
 } parameters_words;
 
-/* Like parameters_hash, for successive points of one case. */
+/* Like parameters_hash, for successive points of one case. before->known must be 0 for the first
+ * point. */
 uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
                               parameters_words *before);
 
@@ -222,12 +227,13 @@ extern const case_type *const registry_cases[];
 
 enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
 
-/* Evaluates an expression for a text. The expression consists of words connected by and, or, not
- * and brackets. A word matches anywhere in the text. =NAME matches a whole part between slashes.
- * Returns 1 or 0; -1: the expression is malformed. */
+/* Evaluates an expression for a text. The expression consists of words with and, or, not and
+ * brackets; words without an operator between them are joined by `and`. A word matches anywhere in
+ * the text. =NAME matches a whole part between slashes. Returns 1 or 0; -1: the expression is
+ * malformed. */
 int select_matches(const char *expression, const char *text);
-/* Returns 1 if the expression is true for every text that contains `part`, and for expression NULL.
- * Returns 0 for an expression with `not`. */
+/* Returns 1 if the expression is true for every text in which `part` stands between slashes, or if
+ * expression is NULL. Returns 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
 /* Records which words of an expression have matched a name.
@@ -236,10 +242,11 @@ typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;
 
-/* Starts the record. expression NULL: selects everything. REFUSED: the expression is malformed. */
+/* Starts the record with the words that match a case or a formulation. expression NULL: selects
+ * everything. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
-/* Finds the first word that matched no name. */
+/* Returns 1 if a word has matched no name; word: the first such word. */
 int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
 /* Checks that all words have matched. REFUSED: a word matched no name; the message gives the first
  * such word and the most similar name. */

@@ -11,7 +11,7 @@
 #include "elements/shared/status.h"
 #include "harness/formulations/formulations.h"
 
-/* A child process whose standard input and output are channels. */
+/* A child process whose standard input and output are pipes. */
 
 typedef struct child {
     pid_t process; /* 0: no process */
@@ -23,7 +23,7 @@ typedef enum child_event {
     CHILD_DONE,
     CHILD_ENDED,
     CHILD_LATE,
-    CHILD_WROTE /* the child wrote before it had received the whole request */
+    CHILD_WROTE /* the child wrote although no answer was due */
 } child_event;
 
 /* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
@@ -50,7 +50,7 @@ typedef struct handshake {
 
 /* Reads the first line of a process. program_name: start of every error message. After an error,
  * nothing needs to be freed. The owner sets type.constants. REFUSED: the line does not follow the
- * protocol. */
+ * protocol. FAULT: out of memory. */
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
                       fault *f);
 
@@ -85,10 +85,12 @@ typedef struct channel {
     int reported;
 } channel;
 
-/* Makes a channel. REFUSED: words_split rejects the command. FAULT: out of memory. */
+/* Makes a channel with a time limit of 120 s. REFUSED: words_split rejects the command. FAULT: out
+ * of memory. */
 status channel_init(channel *, const char *command, fault *);
 /* Starts the process, after ending an earlier one, and reads its first line into
- * line[HANDSHAKE_MOST + 1], terminated by '\0'. */
+ * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the command cannot be executed, or the
+ * process does not print a line in time. FAULT: there is no pipe or no process. */
 status channel_start(channel *, char line[], fault *);
 /* Returns 1 if this process started the child and the child is running. */
 int channel_runs(const channel *);
@@ -97,22 +99,24 @@ int channel_runs(const channel *);
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
 /* Sends the request and waits for the answer. *body: the answer of `least` or `most` bytes
- * (*count), valid until the next request. FAULT: the channel is broken or the process has ended;
- * `trouble` gives the reason. */
+ * (*count), valid until the next request. Returns the status in the answer, with its message if it
+ * is not OK. FAULT: out of memory, or the process has ended, is too slow, or violates the protocol;
+ * in these cases except the first, the channel is broken, and `trouble` gives the reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Stores the reason for REFUSED or FAULT until it is reported. */
+/* Stores the reason for REFUSED or FAULT until it is reported. A reason that is not yet reported is
+ * kept instead. */
 void channel_note(channel *, status outcome, const fault *why);
 status channel_call(channel *, const char *name, fault *);
 void channel_end(channel *);
-/* Marks the channel as broken, for a reason that the caller gives. Returns FAULT. */
+/* Ends the process and stores the reason in `trouble` and in the fault. Returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
 
 /* Gathers the perturbed states of many elements, so that one call evaluates all of them. */
 
 typedef struct gather {
     int answered;    /* 0: states are gathered; 1: their answers are returned in the same order */
-    int count, next; /* number of states, and number of answers that have been returned */
+    int count, next; /* number of states; index of the next answer */
     int nodes;
     size_t size;
     const element_data **data; /* [count] data of the type that is completed */
@@ -134,7 +138,8 @@ enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation *
  * only call for an element. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
-/* Returns the answer [size] for the state x[nodes]. */
+/* Stores the state x[nodes] and returns NULL, or, if g->answered is 1, returns the answer [size]
+ * for this state. */
 const double *gather_next(gather *, const element_data *own, const node_state x[],
                           const double *history);
 
@@ -142,13 +147,13 @@ const double *gather_next(gather *, const element_data *own, const node_state x[
  * or zeros while states are gathered; NULL: the functions are called. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
 size_t forces_size(const element_data *d);
-/* Computes the answers of states first .. first + count - 1, including everything that the type
- * computes. Requires force_many. */
+/* Computes the answers of states first .. first + count - 1, with everything that the type computes
+ * (but no energy if there is a history). Requires force_many. */
 void forces_evaluate(const element_data *, gather *, int first, int count);
 
 /* Strains of an element that is defined by its force or energy. The strains are the positions of
  * its nodes relative to the first node, in the axes of the first node: e = (|d| - undeformed
- * distance, l p, l log(R0^T R_k)) for every other node, l^2 a for
+ * distance, l p, l log(R_0^T R_k)) for every other node, l^2 a for
  * all nodes, and l times the additional unknowns [m]. Here d = r_k -
  * r_0, and p = (2 n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord
  * points backwards. */
@@ -161,8 +166,8 @@ places_count *places_strains(int nodes, int scalars);
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out);
 
-/* Computes the positions of the nodes for these strains. The first node is at rest at the origin.
- * */
+/* Computes the states of the nodes for these strains. The first node is at the origin and not
+ * rotated. */
 void places_nodes(const element_data *d, const double e[], node_state x[]);
 
 /* Computes B [coordinates x strains], the derivative of the states of the nodes with respect to the

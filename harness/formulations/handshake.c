@@ -138,7 +138,8 @@ static status words_of(const handshake_reading *r, const char *key, const word_b
     return STATUS_OK;
 }
 
-/* Reads a whole number. The result is `absent` if the member is missing. */
+/* Reads a whole number from `least` to `most`. The result is `absent` if the member is missing;
+ * absent < 0: the member must be given. */
 static status number_of(const handshake_reading *r, const char *key, int least, int most,
                         int absent, int *out)
 {
@@ -366,7 +367,8 @@ static const char *copy_or(handshake_memory *memory, const json_t *text, const c
     return copy(memory, json_is_string(text) ? json_string_value(text) : absent);
 }
 
-/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words. */
+/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words, or the list is
+ * empty. */
 static const char *join(handshake_memory *memory, const json_t *list)
 {
     char *start = memory->end;

@@ -8,8 +8,9 @@
 #include "harness/formulations/process_impl.h"
 
 /* Loads the type that the command describes. The type and its process exist until this process
- * ends. REFUSED: the command does not exist, or the first line of its output does not follow the
- * protocol (protocol.md). */
+ * ends. REFUSED: PROCESS_MOST types are loaded, the machine is big-endian, the command cannot be
+ * executed, or the first line of its output is missing or does not follow the protocol
+ * (protocol.md). FAULT: out of memory, or there is no process. */
 static status process_load(const char *command, const element_type **out, fault *f);
 
 static status refuse(const char *path, const char *why, fault *f)
@@ -23,7 +24,7 @@ static int is_name(const char *text)
            text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_")] == '\0';
 }
 
-/* Checks the required members. The message names the first missing member. */
+/* Checks the required members. The message names the first one that is missing or wrong. */
 static status check(const char *path, const element_type *t, fault *f)
 {
     const char *why = NULL;

@@ -91,8 +91,8 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Computes the rows of another node: the derivatives of its position and rotation relative to the
- * first node. */
+/* Computes the rows of J for another node: the derivatives of its strains of position and
+ * rotation. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = adapted_coordinates(d);
@@ -102,7 +102,8 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
     relative_rotation(&x[0], &x[k], psi);
     chart_dexp_inverse(psi, T);
     direction_rows(d->length, to, Q);
-    double back[9]; /* d(n.d) = n.dd + dphi.(n x d), because n rotates */
+    double back[9]; /* d(n.d) = n.dd + dphi.(n x d) for a vector n that rotates with the first node
+                       by dphi, and the chord d */
     for (int i = 0; i < 9; i++)
         back[i] = x[0].R[3 * (i % 3) + i / 3];
     mat3_mul(T, back, turned);

@@ -131,9 +131,9 @@ static int child_end(child *c, int now)
     return -1;
 }
 
-/* Waits until the child has written or, if `to` is POLLOUT, until it accepts input. end: time of
- * clock_wall_seconds at which the time limit expires; 0: no limit. Returns 0 after the time limit.
- */
+/* Waits until the child has written or has closed its output, or, if `to` is POLLOUT, accepts
+ * input. end: time of clock_wall_seconds at which the time limit expires; 0: no limit. Returns 0
+ * after the time limit. */
 static int await(const child *c, short to, double end)
 {
     struct pollfd at[2] = {{.fd = to ? c->to : -1, .events = to},
@@ -173,7 +173,8 @@ static ssize_t write_quietly(int to, const void *bytes, size_t count)
     return written;
 }
 
-/* Writes all bytes. limit: time limit [s]; 0: none. */
+/* Writes all bytes. limit: time limit [s] for all of them; 0: none. Returns CHILD_WROTE if the
+ * child writes before they are written. */
 static child_event child_write(const child *c, const void *bytes, size_t count, int limit)
 {
     const char *from = bytes;
@@ -196,8 +197,8 @@ static child_event child_write(const child *c, const void *bytes, size_t count, 
     return CHILD_DONE;
 }
 
-/* Reads at least `least` and at most `most` bytes. *count: number of bytes that were read, even if
- * the child has ended. */
+/* Reads at least `least` and at most `most` bytes. *count: number of bytes that were read, also if
+ * the child has ended or is late. */
 static child_event child_read(const child *c, void *bytes, size_t least, size_t most, size_t *count,
                               int limit)
 {

@@ -12,7 +12,7 @@ static channel *frame_channel(const frame_question *q)
     return &q->data[0]->of->to;
 }
 
-/* Returns OK if the process still has the data of these elements. */
+/* Returns OK if the process still has the data of these elements, otherwise FAULT. */
 static status known(const frame_question *q, fault *f)
 {
     const process *p = q->data[0]->of;
@@ -45,8 +45,7 @@ static void frame_take(const char **from, double to[], size_t count)
 }
 
 /* Starts a request and writes the kinds of the elements. *to: memory for `each` bytes of every
- * element. FAULT: the process has been restarted and has not prepared these elements, or out of
- * memory. */
+ * element. FAULT: the process no longer has the data of these elements, or out of memory. */
 static status frame_begin(const frame_question *q, size_t each, char **to, fault *f)
 {
     TRY(known(q, f));

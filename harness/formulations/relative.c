@@ -202,7 +202,7 @@ status relative_stress(const element_data *d, const double e[], const double inn
     return outcome;
 }
 
-/* Computes e = C^-1 sigma. e is zero in directions without stiffness. */
+/* Computes e = C^-1 sigma and overwrites C. e is zero in directions without stiffness. */
 static status flexible(int m, double C[], const double sigma[], double e[])
 {
     int pivot[PLACES_MOST];

@@ -75,7 +75,8 @@ static void multiply(unit_measure *a, const unit_measure *b, int power)
         a->power[i] += power * b->power[i];
 }
 
-/* Interprets one character of a unit. */
+/* Interprets a blank, an operator or a bracket. Returns 0 for another character and for a second
+ * '/'. */
 static int read_sign(char c, int *side, int *depth)
 {
     if (c == ' ' || c == '*')
@@ -173,8 +174,9 @@ static int determinant(const axes *a)
     return (even ? 1 : -1) * a->sign[0] * a->sign[1] * a->sign[2];
 }
 
-/* Returns a component of the other program in the axes of beamwork. In a reflection, rotations and
- * moments also change their sign. */
+/* Returns the component of beamwork that corresponds to a component of the other program.
+ * Multiplies *sign by its sign, which for rotations and moments includes the determinant of the
+ * axes (-1 for a reflection). */
 static int component_of(const axes *a, int imported_axis, int *sign)
 {
     const int turns = imported_axis >= SCENE_RX,
@@ -208,7 +210,8 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 }
 
 /* Transforms the reduction. After a change of sign, a maximum becomes a minimum, and a rising
- * crossing becomes a falling crossing. A time has no sign. */
+ * crossing becomes a falling crossing. Times, root mean squares, amplitudes of a spectrum and power
+ * spectral densities do not change their sign. */
 static void turn_reduction(scene_quantity *q, int *sign)
 {
     static const scene_reduction other[SCENE_REDUCTIONS] = {[SCENE_MAX] = SCENE_MIN,

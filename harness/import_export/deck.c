@@ -4,10 +4,10 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the lines after the keyword *NODE for these nodes. */
+/* Writes the lines of *NODE for the two reference nodes of each body. */
 static void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
 static void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
-/* Writes the prescribed coordinates at `path` after the keyword *BOUNDARY. */
+/* Writes *BOUNDARY with the prescribed coordinates at `path`. acting: see scene_acting_of. */
 static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
                              FILE *to);
 /* Like body_write_state, for a small motion in which the prescribed coordinates do not move.
@@ -156,8 +156,8 @@ static void write_structure_loads(const answers_writer *w, int acting, double pa
         }
 }
 
-/* Writes the step to the state at `path`. increments: number of increments with which a nonlinear
- * step starts; 0: the step is linear. */
+/* Writes the step to the state at `path`. The first increment is 1/increments of a nonlinear step;
+ * increments 0: the step is linear. */
 static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)

@@ -90,9 +90,9 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* Checks the rotations of a node. In CalculiX, a rotation node has a rotation vector. Rotations
- * about fixed axes are equivalent to this vector only if no rotation, all rotations, or all but one
- * are fixed. */
+/* Checks the rotations of a node. In CalculiX, a rotation node has a rotation vector. Large
+ * rotations about fixed axes are equivalent to this vector only if all three are free or if at
+ * least two are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -226,8 +226,9 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Requires that a linear step is about the end of the path. CalculiX loses the state after a linear
- * step, so this step must be the last one. */
+/* CalculiX loses the state after a linear step, so a step about a loaded state must be the last
+ * one. REFUSED: the value is not that at the end of the path, or a value about a loaded state comes
+ * before it. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;
@@ -252,7 +253,8 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
 }
 
 /* Checks an entry of a matrix. REFUSED: the entry belongs to a rotation about a loaded state, where
- * the stiffness of a rotation vector corresponds to no convention for moments. */
+ * the stiffness of a rotation vector corresponds to no convention for moments; or check_last
+ * rejects it. */
 static status check_entry(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_entry *e = scene_entry_of(q);

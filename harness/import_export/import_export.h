@@ -12,7 +12,7 @@
 typedef struct axes {
     int own_axis[3]; /* indices 0..2 of the axes of beamwork that are x, y, z of the other program
                       */
-    int sign[3];     /* signs of these axes: 1 or -1 */
+    int sign[3];     /* 1: same direction, -1: opposite direction */
 } axes;
 
 extern const axes axes_same;
@@ -32,10 +32,11 @@ typedef struct scene_data_request {
 
 /* Writes JSON: the scene file that write_scene writes, the required physics, the axes of the
  * members, the constants of the sections, and the meanings of the quantities. All values are in SI
- * units. REFUSED: the message gives the reason. */
+ * units. REFUSED: write_scene, scene_constants or member_arc_of rejects the scene. FAULT: out of
+ * memory, or `to` cannot be written. */
 status scene_data_write(const scene_data_request *, FILE *to, fault *f);
 
-/* A scene as an input deck of CalculiX 2.20. Members are solids, and ends are rigid faces. */
+/* A scene as an input deck of CalculiX 2.20. Members are solids whose end faces are rigid. */
 
 enum { DECK_MOST_ELEMENTS = 400 };
 
@@ -45,8 +46,9 @@ typedef struct deck_request {
     int elements;   /* number of elements along each member that does not specify a number */
 } deck_request;
 
-/* Checks that a deck can express the scene, before anything is written. REFUSED: the message names
- * the part of the scene that a deck cannot express. */
+/* Checks that a deck can express the scene, before anything is written. REFUSED: `elements` is not
+ * between 1 and DECK_MOST_ELEMENTS, or a deck cannot express a part of the scene, which the message
+ * names. */
 status deck_check(const deck_request *, fault *f);
 status deck_write(const deck_request *, FILE *to, fault *f);
 
@@ -77,17 +79,20 @@ typedef struct import_block {
     mistakes *m;
     axes axes;
     int at;    /* line of the map that requests the value; 0: line of the value */
-    int point; /* index of the point in the sweep; -1: the case is unknown */
+    int point; /* index of the point in the sweep; -1: the case or one of its parameters is unknown
+                */
     imported *found;
 } import_block;
 
-/* Starts a series: checks the case, the parameters and the other entries of the header. found is
- * NULL if out of memory. */
+/* Starts a series: checks the case, the parameters and the other entries of the header, and adds
+ * errors to m. found is NULL if out of memory. */
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
                                mistakes *m);
-/* Adds a value in the unit of the file. */
+/* Converts a value from the unit and the axes of the file and adds it to the series. Errors are
+ * added to b->m. */
 void import_block_add(import_block *b, const imported_row *row);
-/* Sorts the values into cells. If there are no errors, adds the series to the sweep. */
+/* Checks that no value is given twice. If there are no errors, moves the values, if any, to the
+ * sweep (import_cells_add); otherwise frees them. */
 status import_block_close(import_block *b, fault *f);
 
 /* Imports results of another program from tidy CSV with a header. The results become series of a
@@ -106,8 +111,8 @@ status import_block_close(import_block *b, fault *f);
  * Columns may be in any order. quantity, unit, elements and value are required; a curve also needs
  * x [SI]. Header lines after rows start another series; keys that are not repeated remain valid. */
 
-/* Reads a file into `into`. Adds all errors of the file with their lines to m. FAULT: the file
- * cannot be read. */
+/* Reads a file into `into`. Adds all errors of the file with their lines to m. REFUSED: there are
+ * errors. FAULT: the file cannot be read, or out of memory. */
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f);
 
 /* Imports columns without a header. A map in YAML assigns columns and rows to quantities.
@@ -124,7 +129,8 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
  * where: values of columns that select rows; rows: first, last (default), a number starting at 1,
  * or all: a curve over the column `abscissa`. Value = times * (column - minus), in `unit`. */
 
-/* Imports the files as one series. Errors refer to lines of the map. */
+/* Imports the files as one series. Errors are added to m and refer to lines of the map. REFUSED:
+ * there are errors. FAULT: a file cannot be read, or out of memory. */
 status import_map_read(const char *map, const char *const file[], int files, import_set *into,
                        mistakes *m, fault *f);
 
@@ -135,10 +141,10 @@ typedef struct import_left {
                       * none */
 } import_left;
 
-/* Adds a series for each program to every point that has series in the file. A nonzero flag means
- * that verdicts on these series affect the exit status. FAULT: the file is missing, damaged or not
- * a file of imported values. REFUSED: the file has no imported values, or the run already has them.
- * */
+/* Adds the series of a file of imported values to the points of the run with the same case and
+ * parameters. A nonzero flag means that verdicts on these series affect the exit status. FAULT: the
+ * file is missing, damaged or not a results file, or out of memory. REFUSED: the file has no
+ * imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

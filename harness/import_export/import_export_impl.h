@@ -11,9 +11,9 @@
 #include "harness/study/study.h"
 
 /* The cross-section of a solid: a lattice of rectangles along the y and z axes of the section, some
- * of which are filled. A straight wall is a strip along its centre line. Where a wall ends on the
- * side of another wall (I, T), the section counts half of the thickness at this point twice, but
- * the solid counts it once. */
+ * of which are filled. A straight wall is a strip along its centre line. Where a wall ends at the
+ * centre line of another wall (I, T), they overlap over half of the thickness of the other wall.
+ * The area of the section counts the overlap twice, that of the solid once. */
 
 enum {
     FACE_WALLS = 8, /* minimum number of elements along the longer side of a section of walls */
@@ -39,15 +39,15 @@ enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 typedef struct brick {
     int elements[3]; /* number of elements along x, y and z of the member */
     int first_node, first_element;
-    /* centre of the first face [m]; the columns of `axes` are the axes x, y, z */
+    /* start of the member [m]; the columns of `axes` are the axes x, y, z of the member */
     double origin[3], axes[9];
     double length;
     face face; /* cross-section, which is constant along the member */
 } brick;
 
 /* Makes the mesh of a member. Numbers start at first_node and first_element. along: number of
- * elements along the member; the numbers across the member follow from its face. REFUSED: the
- * section has no face. */
+ * elements along the member; the numbers across the member follow from its face. REFUSED:
+ * scene_constants rejects the section, or it cannot be divided into bricks. */
 status brick_init(brick *out, const scene *s, int member, int along, int first_node,
                   int first_element, fault *f);
 /* Return the first node number and the first element number that the brick does not use. */
@@ -81,7 +81,7 @@ int body_direction(int component);
 /* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so a
  * deck never omits one without a message. */
 
-/* Returns the index of the static analysis if there is exactly one, otherwise SCENE_NONE. */
+/* Returns the index of the first static analysis; SCENE_NONE: there is none. */
 int export_is_static(const scene *s);
 /* Checks the scene. REFUSED: the message names the part of the structure or of its analyses that a
  * deck cannot express, and the remedy. */
@@ -101,10 +101,11 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 /* Values of another program as a series of a sweep. The cells of such a series are not run. */
 
 /* Appends a series to the point. Takes ownership of `found`, even after a failure. REFUSED: there
- * are more meshes than a series can have. */
+ * are more meshes than a series can have. FAULT: out of memory. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 
-/* Returns the string of an entry, or `otherwise` if the entry is missing. */
+/* Returns the string of an entry, or `otherwise` if the entry is missing or, which is added to m as
+ * an error, not a string. map_keys_number does the same for a number. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);

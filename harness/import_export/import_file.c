@@ -30,7 +30,7 @@ typedef struct file_reader {
     const char *path;
     mistakes *m;
     int line, rows;
-    int versioned; /* 1: the first line has identified the file */
+    int versioned; /* 1: the first line of the format has been read, or reported as missing */
     int placed;
     int place[FIELDS]; /* column of each field; -1: none */
     int fields;
@@ -151,7 +151,8 @@ static void read_columns(file_reader *r, char *const field[], int count)
     }
 }
 
-/* Reads a number. Returns NAN for an empty field if empty fields are allowed. */
+/* Reads a number. Returns NAN for an empty field, which is an error in a required column, and for a
+ * text that is not a number. */
 static double number_of(const file_reader *r, const char *text, column c)
 {
     double value;

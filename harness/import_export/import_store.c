@@ -28,7 +28,7 @@ static const table_column value_columns[] = {
     TEXT(value_row, file_unit), INT(value_row, elements),     INT(value_row, line),
     INT(value_row, unknowns),   DOUBLE(value_row, factor),    DOUBLE(value_row, seconds),
     DOUBLE(value_row, x),       DOUBLE(value_row, value),     DOUBLE(value_row, uncertainty),
-    TEXT(value_row, version) /* the last field, because older files do not have this field */};
+    TEXT(value_row, version) /* the last column, because older files do not have it */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
 typedef struct tables {
@@ -53,7 +53,7 @@ static const char *parameters_of(const tables *t, const char *name)
     return NULL;
 }
 
-/* Returns the point of the run for these series; -1: none. */
+/* Returns the point of the run with this case and these parameters; -1: there is none. */
 static int point_of(const sweep *s, const char *of, const char *parameters)
 {
     for (int i = 0; i < s->seriess; i++) {
