@@ -1,8 +1,8 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--imported THEIRS.h5]
-[--sweep SWEEP.h5] -o FOLDER writes the report as a self-contained folder of HTML and SVG files. A sweep may replace
-the results. With --figures FORMAT, it also writes the charts into FOLDER/figures, for papers. With --film FILM.html
-instead of -o FOLDER, it writes a motion as a single file that any browser plays from disk; with --vtk FILE.pvd, shapes
-as a series of VTK files."""
+[--sweep SWEEP.h5] -o FOLDER writes the report as a self-contained folder of HTML and SVG files. RESULTS.h5 may also be
+a sweep. With --figures FORMAT, it also writes the charts into FOLDER/figures, for papers. With --film FILM.html instead
+of -o FOLDER, it writes a motion as a single file that any browser plays from disk; with --vtk FILE.pvd, shapes as a
+series of VTK files."""
 import argparse
 import sys
 

@@ -2,9 +2,9 @@
 
 The rule is that of harness/study/study.h. n is the number of elements of the coarsest mesh for which the errors of
 that mesh and of all finer meshes are within the level (the tolerance). Formulations are sorted by the cost of their
-counted work on that mesh, so two runs give the same order. Costs that differ by less than the uncertainty of the cost
-model tie. A formulation that does not pass in the requested quantity is listed but is never the cheapest. Variants
-whose options change neither errors nor work are omitted.
+counted work on that mesh, so two runs give the same order. Costs that differ from the lowest by less than the
+uncertainty of the cost model tie with it. A formulation that does not pass in the requested quantity is listed but is
+never the cheapest. Variants whose options change neither errors nor work are omitted.
 
     found = answers.answer(point, quantity, level) # quantity: a name, ALL, or a list of names
     found.best [Way] the cheapest formulation and those whose costs tie with it; may be empty
@@ -36,9 +36,9 @@ class Way:
     clock: object  # data.Clock: measured time
     error: float  # error on the mesh, the largest in magnitude of the requested quantities
     worst: object  # data.Verdict: the worst verdict on the requested quantities
-    defects: list  # the verdicts other than pass
+    defects: list  # the verdicts that are not in SOUND
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
-    unranked: str = ""  # reason why the formulation has no rank and therefore no cost
+    unranked: str = ""  # reason why the formulation has no rank, or an empty string
 
     @property
     def seconds(self):
@@ -179,7 +179,7 @@ def faster(a, b):
 
 def differ(a, b):
     """Returns True if two times differ significantly: each round of one is below every round of the other or, for
-    single runs, they differ by a factor of two."""
+    single runs, they differ by more than a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)

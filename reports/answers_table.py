@@ -2,8 +2,9 @@
 
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
-CSV and JSON contain an entry for each formulation within the tolerance, sorted by the cost of counted work. Rank 0
-means that the formulation does not pass or has no rank. In the latter case, `unranked` gives the reason.
+CSV and JSON contain an entry for each formulation within the tolerance. Formulations with a rank come first, sorted by
+the cost of counted work. Rank 0 means that the formulation does not pass or has no rank. In the latter case, `unranked`
+gives the reason.
 """
 import argparse
 import csv

@@ -153,7 +153,7 @@ def channel_rows(look):
 
 
 def orders(look, parameters, quantities):
-    """Yields (formulation, [(error of the finest mesh, order)]) at one point."""
+    """Yields (formulation, [(error of the finest mesh, order) for each quantity]) at one point."""
     point = look.points.get((CASE, canonical(parameters)))
     for series in point.series if point else []:
         found = [next((v for v in series.verdicts if v.quantity == q), None) for q in quantities]

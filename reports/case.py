@@ -128,7 +128,8 @@ def tally_of(point):
 NAVIGATION = [("convergence.html", "to print")]
 MOST_POINTS = 3  # number of points with figures; later points have figures only if they have values of other programs
 MOST_PANELS = 6  # largest number of panels in the figure of the other quantities, and in that of model errors
-# Largest number of verdicts on one page. With more verdicts, the other parameter points have separate pages.
+# Largest number of verdicts at the parameter points other than the first for which these points are on the page of the
+# case. With more verdicts, each of these points has a separate page.
 MOST_ROWS = 1500
 
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
@@ -203,7 +204,7 @@ def table_of(point, quantity):
 
 
 def cheapest_of(point):
-    """If there are several quantities, all together come first."""
+    """Returns [(quantity, {level: answers.Answer})]. If there are several quantities, answers.ALL comes first."""
     names = answers.judged(point)
     wanted = ([answers.ALL] if len(names) > 1 else []) + names
     return [(q, {level: answers.answer(point, q, level) for level in LEVELS}) for q in wanted]

@@ -177,7 +177,8 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """`fast` and `slow` are (formulation, elements per sheet)."""
+    """Returns {column: value} of the comparison of two formulations, or None if a mesh or a time is missing. `fast` and
+    `slow` are (formulation, elements per sheet)."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -257,7 +258,7 @@ def read(path=TABLE):
 
 
 def measured(look, truths, row):
-    """Describes the computed value of a row. Returns '' if there is no value."""
+    """Returns the computed value of a row and its deviations as text, or '' if there is no value."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]

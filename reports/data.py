@@ -155,7 +155,8 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Returns the rows that describe the parameters of the case."""
+    """Returns the rows that describe the parameters of the case, or [] if the file has no scenes. Stores the scene and
+    the meanings of quantities in each point."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}

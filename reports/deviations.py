@@ -1,4 +1,5 @@
-"""The list of known deviations (reference/findings.csv), with a line for each entry and its verdicts."""
+"""Pages of known deviations (reference/findings.csv, with the verdicts that each entry explains), of their causes, and
+of the errata."""
 import functools
 import math
 import re

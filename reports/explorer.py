@@ -35,7 +35,7 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """Returns True if all finite values equal truth x (1 + error) to round-off and the reference value is not zero."""
+    """Returns True if all finite values equal truth x (1 + error) within 1e-9 and the reference value is not zero."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
@@ -78,7 +78,8 @@ def data_of(case):
 
 
 def shared(points):
-    """Replaces strings that occur more than once by indices. Returns {"w": these strings, "points": the points}."""
+    """Replaces strings of several characters that occur more than once by indices. Returns {"w": these strings,
+    "points": the points}."""
     every = [s for p in points for s in p["s"]]
     count = collections.Counter()
     for *columns, quantities in every:

@@ -69,7 +69,9 @@ def curve(series, quantity):
 
 
 def candidates(found):
-    """The quantities of a case are the first one with a verdict and those with a wrong limit."""
+    """Returns [(error of the finest mesh, case, quantity, (case, point, series))] in ascending order. The quantities of
+    a case are the first one with a reference value and those with a wrong limit. Series with fewer than three errors
+    are omitted."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -130,7 +132,7 @@ def example(name, choices):
 
 
 def standing(series):
-    """Returns the worst verdict of a series, or None."""
+    """Returns the worst verdict of a series, or None if there is no verdict."""
     judged = [v for v in series.verdicts if v.verdict not in UNJUDGED]
     return worst(judged) if judged and not series.missing else None
 
@@ -176,11 +178,11 @@ def all_ways(cases):
 
 
 def speed(found, key, known):
-    """Returns [(level, posed, ranked, doubtful, first, rank, factor)]. `posed` is the number of cases in which a
-    formulation that passes reaches the level. `ranked` and `doubtful` are the numbers of these cases in which this
-    formulation reaches the level and passes, and reaches it but does not pass. `first` is [(case, elements)] of the
-    cases in which it is the cheapest or ties. `rank` and `factor` are the medians of its rank and of its cost relative
-    to the cheapest."""
+    """Returns [(level, posed, ranked, doubtful, first, rank, factor)]. `posed` is the number of cases that this
+    formulation supports and in which a formulation that passes reaches the level. `ranked` and `doubtful` are the
+    numbers of these cases in which this formulation reaches the level and passes, and reaches it but does not pass.
+    `first` is [(case, elements)] of the cases in which it is the cheapest or ties. `rank` and `factor` are the medians
+    of its rank and of its cost relative to the cheapest."""
     out = []
     for level in LEVELS:
         posed, doubtful, first, factors, ranks = 0, 0, [], [], []

@@ -61,7 +61,8 @@ class Ladder:
 
 @dataclass(frozen=True)
 class Way:
-    """`cost` [s] is interpolated to exactly this error, and `run` is a run within the level."""
+    """An integrator that reaches an error level. `cost` [s] is interpolated to exactly this level, and `run` is a run
+    within it."""
 
     scheme: str
     cost: float

@@ -254,8 +254,8 @@ def fates(problems):
 
 
 def draw_map(problems, legend=True):
-    """Returns the Image of the map of a structure. `problems` are its stiffenings. If `legend` is True, the letters are
-    explained below the map."""
+    """Returns the Image of the map of a structure. `problems` are those of the structure with different stiffenings. If
+    `legend` is True, the letters are explained below the map."""
     found = fates(problems)
     schemes = ordered({s for s, _, _ in found})
     steps, stiffenings = sorted({h for _, h, _ in found}), sorted({x for _, _, x in found})
@@ -303,8 +303,8 @@ def rows_of(problems, noise):
 
 
 def cases_of(problems, noise):
-    """Returns [(case, parameters, {level: Summary}, rows)] for all formulations of a case together, and for each
-    formulation."""
+    """Returns [(case, parameters, {level: Summary}, rows)]. A Summary is for all formulations of a case together, and
+    `rows` contains the answers for each formulation."""
     return [(case, parameters,
              {level: integrators.summary(own, level, noise) for level in integrators.LEVELS},
              rows_of(own, noise)) for (case, parameters), own in integrators.by_case(problems).items()]

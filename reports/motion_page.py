@@ -219,7 +219,7 @@ def thinned(values, most=MOST_POINTS):
 
 
 def largest(x, y, most=MOST_POINTS):
-    """Returns (x, y) of the largest y in each of this number of intervals, so that no peak is lost."""
+    """Returns (x, y) of the largest y in each of `most` intervals, so that no peak is lost."""
     parts = np.array_split(np.arange(len(y)), min(len(y), most))
     at = [int(part[np.nanargmax(y[part])]) for part in parts]
     return x[at], y[at]
@@ -264,7 +264,7 @@ def draw_momenta(site, motion, name):
 
 
 def leading(motions):
-    """Returns the motions that are drawn, at most MOST_CURVES."""
+    """Returns the motions that are drawn, at most MOST_CURVES. Options and uncorrected misprints are omitted first."""
     rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]

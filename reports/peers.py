@@ -134,7 +134,8 @@ def profile_of(site, records, level):
 
 
 def winners(record):
-    """Returns [(quantity, [(level, first row or None, best row of the other side or None)])]."""
+    """Returns [(quantity, [(level, first row or None, other row or None)])]. The other row is the best one of the other
+    programs if the first is a formulation, and the best formulation otherwise."""
     out = []
     for q in peers_data.known(record)[:DRAWN]:
         cells = []

@@ -11,7 +11,7 @@ RECORDS, FEATURES = ROOT / "reference" / "peers", "features.json"
 
 
 def _module(name):
-    """Returns a module of beamwork.peers without the library, so that the program and the report rank alike."""
+    """Returns a module of beamwork.peers, loaded without the library, so that the program and the report rank alike."""
     places = [ROOT / "harness" / "library" / "python" / "beamwork"]
     found = importlib.util.find_spec("beamwork")
     places += [pathlib.Path(p) for p in (found.submodule_search_locations or ())] if found else []
@@ -77,7 +77,8 @@ def known(record):
 
 
 def curves(record, quantity):
-    """Returns [(series, [(time, error, run)])] for the series with times and errors other than zero."""
+    """Returns [(series, [(time, error, run)])] of the runs with a time and an error other than zero. Series of other
+    models are omitted."""
     out = []
     for series in record["series"]:
         if series.get("other_model"):
@@ -118,7 +119,7 @@ def problems(found, level):
 
 
 def untimed(series):
-    """Returns True if the series has values but no times, as results that were recorded elsewhere."""
+    """Returns True if the series has errors but no times, such as results that were recorded elsewhere."""
     runs = [run for run in series["runs"] if "errors" in run]
     return bool(runs) and not any(run.get("times") for run in runs)
 

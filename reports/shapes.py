@@ -104,7 +104,7 @@ def distance(s, a, b):
 
 
 def exaggeration(s, state):
-    """Returns 1 if the displacements are visible, otherwise a round factor that makes them visible."""
+    """Returns 1 if the displacements are visible or zero, otherwise a round factor that makes them visible."""
     moved = distance(s, state, 0)
     if moved == 0 or moved > VISIBLE * size_of(s):
         return 1

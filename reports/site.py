@@ -157,7 +157,8 @@ class Site:
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
 
     def image(self, figure, name, tight=True):
-        """If `tight` is True, the figure is cropped to its contents and is therefore drawn twice."""
+        """Returns the Image of a figure of matplotlib, and closes the figure. If `tight` is True, the figure is cropped
+        to its contents and is therefore drawn twice."""
         self.paper.figure(figure, name)
         image = svg.image_of(figure, name, self.said, tight)
         plt.close(figure)
@@ -165,7 +166,7 @@ class Site:
         return image
 
     def keep(self, image):
-        """Returns the name of the file."""
+        """Writes an Image to a file. Returns the name of the file."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
             out.write(svg.alone(image.markup))
         return image.name

@@ -72,7 +72,8 @@ class Validity:
         return self.look.legend(self.used)
 
     def scattered(self):
-        """Returns (points, their states [points, F]) if there are only a few points on two axes, otherwise None."""
+        """Returns (points, their states [points, formulations]) if there are at most MOST_DOTS scattered points on two
+        axes, otherwise None."""
         sweep = self.sweep
         if len(sweep.axes) != 2 or sweep.points > MOST_DOTS or not any(
                 a.scattered for a in sweep.axes):
@@ -203,7 +204,7 @@ def curves(site, sweep, found, q=-1):
 # last axis varies fastest.
 
 # Upper ends of the classes of errors in percent, in addition to the tolerance. Two further classes are larger errors
-# and no error.
+# and cells with a run without a solution.
 LEVELS = [m * 10.0**e for e in range(-3, 2) for m in (1, 2, 5)] + [100.0]
 SPECIAL = {maps.EMPTY: "_", maps.UNKNOWN: "?"}
 

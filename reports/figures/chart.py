@@ -1,4 +1,4 @@
-"""Charts of curves in panels, written directly in SVG. They are much faster than charts of matplotlib.
+"""Charts of curves in panels, written directly in SVG. They are drawn much faster than charts of matplotlib.
 
 A chart has panels in rows. A panel contains curves with markers, levels, labels and shaded areas, in data coordinates.
 Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
@@ -31,8 +31,8 @@ def whole_ticks(low, high):
 
 
 def log_ticks(low, high):
-    """Returns [(value, label)]: at most six powers of ten, or 1, 2 and 5 times powers of ten if only one power of ten is
-    in the range."""
+    """Returns [(value, label)]: at most six powers of ten, or 1, 2 and 5 times powers of ten if at most one power of
+    ten is in the range."""
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
     every = max(1, math.ceil((last - first + 1) / 6))
     if last > first:
@@ -50,7 +50,8 @@ def linear_ticks(low, high):
 
 
 class Axis:
-    """An axis of a panel. If `log` is True, the axis is logarithmic. If `whole` is True, the ticks are whole numbers."""
+    """An axis of a panel. If `log` is True, the axis is logarithmic. If `whole` is also True, its ticks are whole
+    numbers."""
 
     def __init__(self, log, whole=False):
         self.log, self.whole, self.low, self.high = log, whole, math.inf, -math.inf

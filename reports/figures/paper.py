@@ -75,7 +75,8 @@ def try_latex():
 
 
 def use(path):
-    """Applies a style file. Returns its entries. Raises Impossible if an entry is unknown or invalid."""
+    """Applies a style file. Returns its entries. Raises Impossible if the file cannot be read or an entry is unknown or
+    invalid."""
     try:
         with open(path, encoding="utf-8") as file:
             lines = [line.partition("#")[0].strip() for line in file]

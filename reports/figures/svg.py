@@ -91,8 +91,8 @@ class Image:
 
 
 def plain(value, digits):
-    """Returns a number rounded to these significant digits, or None if it is not finite. Strings, integers and None are
-    returned unchanged."""
+    """Returns a number rounded to `digits` significant digits, or None if it is not finite. Strings, integers and None
+    are returned unchanged."""
     if isinstance(value, (str, int)) or value is None:
         return value
     if not math.isfinite(value):

@@ -22,7 +22,7 @@ def vector(values, unit):
     return f"{said} {unit}"
 
 
-# Greys change in dark mode. Loads, motions and springs have fixed colours (style.py).
+# Greys and the colours of loads, motions and springs change in dark mode (svg.ink, style.MEANINGS).
 INK, SOFT, LOAD, MOTION, SPRING = "#141414", "#606060", "#b03a00", "#005a94", "#6a5a00"
 STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]

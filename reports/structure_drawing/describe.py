@@ -44,8 +44,8 @@ def load(one):
 
 
 def extent(within):
-    """Describes the range or the position of a load along a member, in percent of its length. Returns an empty string for
-    the whole length."""
+    """Describes the range or the position of a load along a member, in percent of its length. Returns an empty string
+    for the whole length and for a load at a node."""
     if within in (None, (0, 1)):
         return ""
     begin, end = (f"{number(100 * part)} %" for part in within)

@@ -114,7 +114,7 @@ def thickness_words(section):
 
 
 def put_section(canvas, name, section, left):
-    """Returns the position of its right edge."""
+    """Draws a section and its dimensions from the position `left` on. Returns the position of their right edge [pt]."""
     polygons = geometry.outline(section)
     both = np.vstack(polygons)[:, ::-1]  # z is horizontal, y vertical
     low, high = both.min(axis=0), both.max(axis=0)
@@ -165,7 +165,7 @@ def draw_sections(scene):
     return canvas.finish()
 
 
-FAR = 5  # distance, in multiples of the size of the structure, from which an axis is no longer drawn
+FAR = 5  # distance, in multiples of the size of the structure, from which an axis of rotation is not drawn
 MOST_NAMES = 9  # names are drawn for at most this number of nodes
 
 

@@ -147,7 +147,8 @@ def put_loads(canvas, view, scene, lines, into):
 
 
 def motions_of(scene, node):
-    """Returns [(direction, True for a rotation, name of the motion)] of the components that are prescribed by a motion."""
+    """Returns [(direction, True for a rotation, name of the motion)] of the components that are prescribed by a motion
+    that is not always zero."""
     out = [(np.eye(3)[COMPONENTS.index(c) % 3], c[0] == "r", motion)
            for c, motion in node.driven.items()]
     out += [(t.axis, True, t.angle) for t in node.turns if t.angle in scene.motions]

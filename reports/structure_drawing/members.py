@@ -225,7 +225,8 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """Draws nothing and returns 0 if the plate would be seen edge-on."""
+    """Draws a hatched plate normal to `way` and returns 1. Draws nothing and returns 0 if the plate would be seen
+    edge-on."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale

@@ -48,7 +48,7 @@ class Member:
 class Load:
     """A load. `kind` is force, moment, distributed, distributed_moment or gravity. `on` is a node or a member.
     `within` contains the start and the end of the load as fractions of the member length, which are equal for a force
-    or a moment, or is None at a node. `last` is the vector at the end of this range."""
+    or a moment. It is None at a node and for gravity. `last` is the vector at the end of this range."""
     name: str
     kind: str
     vector: np.ndarray
@@ -164,7 +164,7 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
 def read_load(name, said):
-    """Returns None for a temperature, which has no arrow."""
+    """Returns the Load, or None for a temperature, which has no arrow."""
     kind = next((k for k in KINDS if k in said), None)
     if kind is None:
         return None

@@ -197,8 +197,9 @@ def unknown(sweep, found, q):
 
 
 def outcomes(sweep, found):
-    """Returns [(formulation, outcome, number of its runs, number of all runs, [(Parts, low, high)])] of outcomes
-    without a solution. The list contains the axes on which the outcome occurs only from `low` to `high`."""
+    """Returns [(formulation, outcome, number of runs with this outcome, number of runs of the formulation, [(Parts,
+    low, high)])] of outcomes without a solution. The list contains the axes on which the outcome occurs only from `low`
+    to `high`."""
     out = []
     for f, key in enumerate(sweep.keys):
         for s, name in enumerate(sweep.statuses):

@@ -94,7 +94,7 @@ class Extent:
 
 
 def shortened(edges, width):
-    """Rounds numbers to as few digits as possible, with changes below a tenth of the width."""
+    """Rounds each number to a multiple of a power of ten that is at most a tenth of its width."""
     return np.array([round(e, max(0, 1 - math.floor(math.log10(w)))) if w < 1 else
                      round(e, 1 - math.floor(math.log10(w))) for e, w in zip(edges, width)])
 

@@ -13,7 +13,7 @@ PIECE = 1_000_000  # largest number of values of a table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # prefix of kinds of missing references
 OTHER = "other_model"  # outcome of a formulation that omits relevant physics
-ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not requested
+ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of formulations that are not compared at a point
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,8 @@ class Sweep:
         return self.points * len(self.keys) * len(self.meshes)
 
     def pieces(self):
-        """Yields every point once, in order."""
+        """Yields Piece records that contain every point once, in order. A formulation that omits relevant physics at a
+        point has no values there."""
         names = {"at": "points", "doubt": "reference_doubt", "kind": "reference_kind"}
         names |= {name: name for name in ("value", "error", "status", "cost", "least")}
         whole = len(self.keys) * len(self.meshes) * len(self.quantities)

@@ -1,4 +1,5 @@
-"""Tests the selection of formulations of lowest cost, and its page."""
+"""The formulation of lowest cost within a tolerance must be the one defined in reports/answers.py, and its page and
+tables must contain the same answers."""
 import csv
 import html
 import json

@@ -1,4 +1,5 @@
-"""Tests the report in a headless browser: no console messages, all images decoded. Skipped without Chromium."""
+"""In a headless browser, pages of the report must give no console messages, decode all images and fit the window.
+Skipped without Chromium."""
 import html
 import re
 import shutil

@@ -1,4 +1,5 @@
-"""Tests element reports, and formulations whose times are not ranked."""
+"""Element reports must show the results of `beamwork element-test`. Formulations without a rank must never be the one
+of lowest cost."""
 import json
 import math
 import re

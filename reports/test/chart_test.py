@@ -1,4 +1,5 @@
-"""Tests charts, figures and pictures."""
+"""Charts, figures for papers and pictures must be valid, contain the data of the results, and not exceed size
+limits."""
 import json
 import pathlib
 import re

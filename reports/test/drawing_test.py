@@ -1,4 +1,5 @@
-"""Tests drawings of scenes: arrows of loads, symbols of supports, and labels."""
+"""Drawings of scenes must contain every load, motion, spring, support and constraint of the scene. Labels must not
+overlap."""
 import itertools
 import pathlib
 import tempfile

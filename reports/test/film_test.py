@@ -1,4 +1,4 @@
-"""Tests motions in the viewer and in films."""
+"""The viewer and films must play the frames of a motion that the results contain."""
 import base64
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""Tests the first page, the links, and the pages of formulations."""
+"""The first page, the navigation bar, the glossary and the pages of formulations must agree with the results."""
 import re
 import sys
 import tempfile

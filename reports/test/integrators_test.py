@@ -1,4 +1,4 @@
-"""Tests the page of integrators."""
+"""The answers, texts, maps and page of integrators must agree with artificial records (motions.py)."""
 import json
 import re
 import unittest

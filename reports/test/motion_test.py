@@ -1,4 +1,4 @@
-"""Tests pages of motions."""
+"""Pages of motions must show the energies, momenta, steps, quantities and reference values of the results."""
 import re
 import types
 import unittest

@@ -1,4 +1,5 @@
-"""Comparisons with other programs: recorded files, diagrams, profiles, and the parts of pages."""
+"""Diagrams, profiles and parts of pages must agree with artificial comparisons of programs. The recorded files must be
+valid."""
 import json
 import math
 import pathlib
@@ -25,7 +26,8 @@ def record(case="c", *all_series, parameters="", unit="a"):
 
 
 def two():
-    """Returns two comparisons. In the first, a formulation is twice as fast as a peer; in the second, half as fast."""
+    """Returns two comparisons. In the first, a formulation is twice as fast as the other program. In the second, the
+    formulation is half as fast."""
     slow = series("P, x", [run(1, 1e-3, 2.0), run(2, 1e-5, 4.0)])
     fast = series("P, x", [run(1, 1e-3, 0.5), run(2, 1e-5, 1.0)])
     ours = series("a", [run(1, 1e-3, 1.0), run(2, 1e-5, 2.0)], True)
@@ -40,7 +42,7 @@ class Data(unittest.TestCase):
         self.assertEqual(found["front"], [(1.0, 1e-3, "a"), (2.0, 1e-5, "a")])
 
     def test_profile(self):
-        """Each of two programs is the fastest in one of two cases, and twice as slow in the other."""
+        """A program that is twice as slow as the fastest in a case must have the factor 2 there, and otherwise 1."""
         found = peers_data.factors(two(), 1e-2)
         self.assertEqual(found["beamwork"], [(1.0, 1.0), (2.0, 1.0)])
         self.assertEqual(found["P"], [(2.0, 1.0), (1.0, 1.0)])
@@ -53,7 +55,7 @@ class Data(unittest.TestCase):
         self.assertEqual([why for s, why in peers_data.outcomes(record("c", refused))], ["no"])
 
     def test_without_times(self):
-        """Results without times are not in profiles."""
+        """A program without times must not be in profiles."""
         old = series("Q, y", [{**run(1, 1e-5, 1.0), "times": {}}])
         self.assertNotIn("Q", peers_data.factors([record("c", *two()[0]["series"], old)], 1e-2))
 
@@ -62,7 +64,7 @@ class Data(unittest.TestCase):
         self.assertEqual({(r["case"], level) for r, _, level, _ in found}, {("second", level) for level in peers_data.LEVELS})
 
     def test_recorded_and_live(self):
-        """Recorded files give the same diagrams as the live comparison, which also contains absolute times."""
+        """Recorded files must give the same diagrams as the live comparison, which also contains absolute times."""
         live = two()[0]
         live["unit"]["seconds"] = 1e-4
         with tempfile.TemporaryDirectory() as folder:
@@ -75,7 +77,8 @@ class Data(unittest.TestCase):
         self.assertEqual(peers_data.factors([read], 1e-2), peers_data.factors([live], 1e-2))
 
     def test_merged(self):
-        """Times of a second record of the same case are converted by a run of beamwork that both contain."""
+        """Times of a second record of a case must be converted by a run of beamwork that both records contain. They
+        must be omitted if there is no such run."""
         first, second = two()[0], record("first", series("a", [run(2, 1e-5, 1.0)], True), series("Q, y", [run(1, 1e-4, 3.0)]))
         second["unit"] = {"name": "a", "ours": True, "elements": 2}
         both = peers_data.merged(first, second)
@@ -86,7 +89,7 @@ class Data(unittest.TestCase):
 
 
 class Recorded(unittest.TestCase):
-    """reference/peers: what everybody sees without installing a program."""
+    """Recorded comparisons (reference/peers) must contain no absolute times, and their tables must be sorted."""
 
     def test_files(self):
         found = peers_data.records()

@@ -1,4 +1,4 @@
-"""Tests performance profiles of problems with known results."""
+"""Performance and data profiles of artificial problems must agree with shares calculated by hand."""
 import math
 import unittest
 
@@ -29,8 +29,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Returns two cases with two formulations. Formulation a costs 1/2 or 1/4 of b but solves only one of the two
-    problems in the second case."""
+    """Returns two cases with two formulations. Formulation a costs 1/2 of b in the first case and 1/4 of b in the
+    second case, in which it solves only one of the two problems."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])

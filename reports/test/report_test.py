@@ -1,4 +1,4 @@
-"""Tests whole reports, reports of scenes, and pages of cases."""
+"""Reports must contain all pages, with links that resolve, and show every quantity, parameter and reference value."""
 import html
 import html.parser
 import json

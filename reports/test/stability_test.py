@@ -1,4 +1,5 @@
-"""Tests the pages of stability and of Newton's method, analytic predictions, and results of other programs."""
+"""The pages of stability and of Newton's method, analytic estimates and results of other programs must show the stored
+values."""
 import json
 import math
 import random

@@ -1,4 +1,4 @@
-"""Tests pages of sweeps."""
+"""Pages of sweeps must show the answers, maps and errors of artificial sweeps (sweeps.py)."""
 import html
 import json
 import re

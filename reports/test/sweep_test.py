@@ -1,4 +1,4 @@
-"""Tests values that reports compute from a sweep."""
+"""Values that reports compute from a sweep must equal those computed point by point."""
 import itertools
 import unittest
 

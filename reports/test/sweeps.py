@@ -20,13 +20,13 @@ STEP = 20_000
 
 
 def grid(*axes):
-    """Axes are (name, unit, kind, values or words)."""
+    """Returns all combinations of the values of the axes (name, unit, kind, values or words) [points, axes]."""
     values = [range(len(a[3])) if a[2] == "words" else a[3] for a in axes]
     return np.array(list(itertools.product(*values)), float)
 
 
 def scattered(count, *limits, seed=1):
-    """Returns points between the limits (low, high) of each axis."""
+    """Returns random points between the limits (low, high) of each axis [count, axes]."""
     low, high = np.array(limits, float).T
     return low + (high - low) * np.random.default_rng(seed).random((count, len(limits)))
 

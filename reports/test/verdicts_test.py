@@ -1,4 +1,4 @@
-"""Tests verdicts, checks and known deviations in reports."""
+"""Reports must describe every kind of verdict, count each verdict once, and show all known deviations and checks."""
 import json
 import re
 import unittest

@@ -1,4 +1,4 @@
-"""Tests pages with scripts, such as the viewer and the explorer."""
+"""The viewer, the explorer and figures must show the stored values, and react to keyboard and pointer."""
 import base64
 import json
 import math
