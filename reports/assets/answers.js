@@ -1,4 +1,4 @@
-// Answers at the reader's tolerance, from the points in the page, by the rule of harness/study/study.h.
+// Answers for the tolerance that the reader enters, from the data in the page. The rule is that of harness/study/study.h.
 "use strict";
 (() => {
 const data = JSON.parse(document.getElementById("points").textContent);
@@ -13,7 +13,8 @@ const make = (tag, words, parent, look) => {
 };
 const seconds = t => t === null ? "\u2013" : t < 1e-3 ? Number((1e6 * t).toPrecision(3)) + " \u00b5s" : t < 1 ? Number((1e3 * t).toPrecision(3)) + " ms" : Number(t.toPrecision(3)) + " s";
 
-// Who is within the level: [{key, n, cost, time, error, defect}] by cost, then by name; one with a defect behind all others.
+// Returns the formulations within the level, [{key, n, cost, time, most, error, defect, unranked}], by cost, then by name.
+// Formulations without a rank come behind those with a rank, and formulations with a defect come last.
 const reached = (one, found, level) => {
   const out = [];
   for (const [index, defect, errors] of found) {
@@ -30,7 +31,7 @@ const beside = (list, cell, level) => {
   for (const words of [...new Set(list.map(way => way.defect))])
     make("div", `also within ${level}, ${words}: ` + list.filter(way => way.defect == words).map(name).join(", "), cell, "beside");
 };
-// Dearer by its counts than the first one, and yet faster in every round of a benchmark.
+// Returns the formulations that have a higher cost than the first one but were faster in every round of a benchmark.
 const faster = (list, tied) => list.slice(tied).filter(way => tied && !way.defect && !way.unranked && way.most !== null && list[0].most !== null && way.most < list[0].time);
 const range = values => {
   const known = values.filter(t => t !== null), least = Math.min(...known), most = Math.max(...known);

@@ -1,5 +1,5 @@
-// The explorer: draws a quantity of a case against the reader's choice, in the form that script.js gives its box and
-// switches to. The numbers of a case are in a script of their own, loaded when it is chosen.
+// The explorer draws a quantity of a case against an abscissa that the reader selects. script.js adds tooltips and
+// switches to the figure. The data of a case are in a separate script (explorer.py), which is loaded when it is selected.
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
@@ -16,7 +16,7 @@ function fill(select, items, wanted) {
   if (items.some(([, value]) => String(value) == wanted)) select.value = wanted;
 }
 
-// [lowest, highest, [[place, words]]] of an axis that holds these values
+// Returns [lowest value, highest value, [[value of a tick, label]]] of an axis for these values.
 function axis(values, log) {
   let [low, high] = [Math.min(...values), Math.max(...values)];
   if (log) {
@@ -44,7 +44,7 @@ function draw() {
     if (!found || !looks[of]) continue;
     const column = key => numbers(told(one[order.indexOf(key)])), [x, n, s, c, u, i] = [x_key, "n", "s", "c", "u", "i"].map(column);
     const [signed, verdict, truth, values] = found.map(told), parts = numbers(signed), off = parts.map(Math.abs);
-    const value = values ? numbers(values) : parts.map(e => Number((truth * (1 + e)).toPrecision(7))); // of what has a truth only errors are stored
+    const value = values ? numbers(values) : parts.map(e => Number((truth * (1 + e)).toPrecision(7))); // only errors are stored if there is a reference value
     const rows = n.map((_, k) => ({ x: x[k], y: error ? Math.min(Math.max(off[k], 1e-13), 1e3) : value[k], row: [n[k], value[k], Number.isFinite(off[k]) ? Number(off[k].toPrecision(2)) : null, s[k], Number.isFinite(c[k]) ? c[k] : null, u[k], i[k], verdict] })).filter(r => r.x > 0 && Number.isFinite(r.y));
     if (rows.length) curves.push({ key: of, rows });
   }
@@ -86,7 +86,7 @@ function draw() {
   words.textContent = `${fields.case.value}, ${point.t}: ${name} [${unit}].`;
 }
 
-// The choices that depend on others; what was chosen stays where it can.
+// Fills the selections that depend on the case. Previous choices are kept if possible.
 function offer(from) {
   const data = loaded[fields.case.value], wanted = from || Object.fromEntries(new FormData(form));
   fill(fields.point, data.points.map((point, i) => [point.t, i]), wanted.point);

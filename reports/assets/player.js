@@ -1,10 +1,10 @@
-// Motions in the viewer (viewer.js): plays the frames of a motion over time, again and again. Space plays and pauses,
-// comma and full stop go to the frame before and after, < and > change the speed, Home and End go to the ends.
+// Plays the frames of a motion in the viewer (viewer.js) repeatedly. Space plays and pauses, comma and full stop show the
+// previous and the next frame, < and > change the speed, and Home and End show the first and the last frame.
 "use strict";
 (() => {
-const WHOLE = 6, HOLD = 0.6, FACTORS = [0.1, 0.25, 0.5, 1, 2, 4]; // seconds that a motion takes at first, and rests at its end
+const WHOLE = 6, HOLD = 0.6, FACTORS = [0.1, 0.25, 0.5, 1, 2, 4]; // WHOLE: initial duration of a motion, HOLD: pause at its end [s]
 const still = matchMedia("(prefers-reduced-motion: reduce)");
-// 1, 2 or 5 and a power of ten, near x.
+// Returns 1, 2 or 5 times a power of ten, near x.
 const round = x => { const ten = 10 ** Math.floor(Math.log10(x)); return ten * (x / ten < 1.5 ? 1 : x / ten < 3.5 ? 2 : x / ten < 7.5 ? 5 : 10); };
 
 class Player {
@@ -30,7 +30,7 @@ class Player {
     place.player = this;
   }
 
-  // The frame that is shown, or the first one after a state that is none.
+  // Returns the index of the displayed frame, or of the first frame after a displayed state that is not a frame.
   now() { const k = Number(this.viewer.slider.value); return Math.max(0, this.frames.findIndex(f => f.state >= k)); }
 
   show(i) {
@@ -66,7 +66,7 @@ class Player {
     requestAnimationFrame(then => this.tick(then));
   }
 
-  // The last frame that is not after t; no other state is made up.
+  // Shows the last frame that is not after t. Frames are not interpolated.
   seek(t) {
     let i = this.frames.length - 1;
     while (i > 0 && this.frames[i].t > t + 1e-9 * (this.end - this.begin)) i--;

@@ -1,8 +1,8 @@
-// What the pages do with a script: a box says what a mark of a figure stands for (pointer, tap, arrow keys); a
-// formulation is switched off and on in its legend, in all figures of the page; all details open on paper.
+// Script of all pages. Tooltips describe the markers of figures (pointer, tap, arrow keys). Entries of legends hide and
+// show a formulation in all figures of the page. All details are open in print.
 "use strict";
 (() => {
-const SVG = "http://www.w3.org/2000/svg", REACH = 18; // pixels from a mark within which it is meant
+const SVG = "http://www.w3.org/2000/svg", REACH = 18; // largest distance of the pointer from a marker [pixels]
 const all = (where, what) => [...where.querySelectorAll(what)];
 const make = (tag, words, parent, more) => {
   const made = Object.assign(document.createElement(tag), more);
@@ -11,7 +11,7 @@ const make = (tag, words, parent, more) => {
   return made;
 };
 
-// Numbers as a reader wants them.
+// Formats of numbers in tooltips.
 const short = (value, digits) => String(Number(value.toPrecision(digits || 6))).replace("-", "\u2212");
 const seconds = value => value < 1e-3 ? short(1e6 * value, 3) + " \u00b5s" : value < 1 ? short(1e3 * value, 3) + " ms" : short(value, 3) + " s";
 const said = (name, value) => {
@@ -21,18 +21,18 @@ const said = (name, value) => {
   return name == "time [s]" ? seconds(value) : short(value, 8);
 };
 
-// What the reader switched, by formulation, for as long as the page's window lives.
+// {formulation: true if the reader shows it, false if hidden}, stored for the session of the window.
 const place = "beamwork " + location.pathname;
 let chosen = {};
-try { chosen = JSON.parse(sessionStorage.getItem(place)) || {}; } catch (none) { /* no storage: until the page is left */ }
-const keep = () => { try { sessionStorage.setItem(place, JSON.stringify(chosen)); } catch (none) { /* as above */ } };
+try { chosen = JSON.parse(sessionStorage.getItem(place)) || {}; } catch (none) { /* without storage, until the page is closed */ }
+const keep = () => { try { sessionStorage.setItem(place, JSON.stringify(chosen)); } catch (none) { /* no storage */ } };
 
-// One box for the page, and a live line that is read aloud.
+// The tooltip of the page, and a line that screen readers read.
 const box = make("div", "", document.body, { id: "said", hidden: true });
 const aloud = make("div", "", document.body, { className: "aloud" });
 aloud.setAttribute("aria-live", "polite");
 
-// Where the marks of a curve are, in the figure's own lengths: corners of the line that has marks, or copies of one.
+// Returns the positions of the markers of a curve in units of the figure: corners of a line, or copies of a marker.
 const marks = group => {
   const line = all(group, "polyline").find(each => getComputedStyle(each).markerMid != "none");
   const at = line ? [...line.points] : all(group, "use").map(use => ({ x: use.x.baseVal.value, y: use.y.baseVal.value }));
@@ -46,12 +46,12 @@ class Figure {
     this.keys = [...new Set(all(svg, "[data-f]").map(g => g.dataset.f))];
     const data = frame.querySelector("script[type='application/json']");
     const { h, v, s: told } = data ? JSON.parse(data.textContent) : { s: [] };
-    told.forEach(one => { // heads, columns that curves share and values that all rows share are said once
+    told.forEach(one => { // see said_of() in svg.py
       one.c = h[one.h];
       const columns = one.r.slice(), of = one.c.map((_, k) => k in one.k ? null : v[columns.shift()]);
       one.r = Array.from({ length: one.n }, (_, i) => of.map((column, k) => column ? column[i] : one.k[k]));
     });
-    // curves: [{told, group, marks}], the marks in the order of the rows that say what they are
+    // curves: [{told, group, marks}], with the markers in the order of the rows of their tooltips
     this.curves = all(svg, "g[data-p]").map(group => ({ group, told: told[group.dataset.p], marks: marks(group) }))
       .filter(curve => curve.told && curve.marks.length == curve.told.r.length);
     all(svg, "[data-l]").forEach(entry => this.entry(entry));
@@ -74,7 +74,7 @@ class Figure {
     }
   }
 
-  // An entry of the legend: words and handle; the words take the keyboard.
+  // Makes a part of a legend entry (text or line) switch its formulation. Only the text has the keyboard focus.
   entry(entry) {
     const key = entry.dataset.l;
     const turn = event => {
@@ -177,7 +177,7 @@ class Figure {
 }
 
 const figures = all(document, "div.figure").filter(frame => frame.querySelector("svg")).map(frame => new Figure(frame, frame.querySelector("svg")));
-// Figures that come later (explorer.js) take part, too: one for each frame.
+// For figures that are added later (explorer.js). A new figure replaces the previous one in its frame.
 window.beamwork = {
   figure(frame) {
     all(frame.parentNode, "button.more").forEach(button => button.remove());
@@ -189,7 +189,7 @@ addEventListener("scroll", () => { box.hidden = true; }, { passive: true });
 
 if (document.querySelector("div.viewer")) document.head.append(Object.assign(document.createElement("script"), { src: "viewer.js" }));
 
-// The list of the first page shows the cases whose names contain what is typed.
+// The list of the first page shows the cases whose names contain the entered text.
 const find = document.getElementById("find");
 if (find) {
   find.hidden = false;
@@ -198,7 +198,7 @@ if (find) {
   }));
 }
 
-// Wide tables can be reached from the keyboard, and paper shows what is folded.
+// Wide tables can have the keyboard focus, so that they can be scrolled. Closed details are open in print.
 const reach = () => all(document, ".scroll, div.figure").forEach(part => { if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; });
 addEventListener("load", reach); addEventListener("resize", reach);
 let folded = [];

@@ -1,5 +1,5 @@
-// The maps of a sweep over the axes that the reader chooses, drawn as reports/sweep/maps.py draws them, from the
-// cells that sweep_own.js reads.
+// Maps of a sweep over axes that the reader selects, drawn from the cells that sweep_own.js reads. They look like those of
+// reports/sweep/maps.py and must be changed together with it.
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
@@ -9,7 +9,7 @@ const short = value => String(Math.round(10 * value) / 10);
 const { ask, spread, joined, EMPTY } = beamwork_cells;
 let data = null;
 
-// [slices][x][y] of the cells of a formulation; fixed: part of each other axis, or -1 for all together.
+// Returns [slices][x][y] from the cells of a formulation. `fixed` is the part of each other axis, or -1 for all parts.
 const project = (cells, x, y, of, groups, fixed, join) => {
   const size = data.axes.map(axis => axis.names.length), at = size.map(() => 0);
   const out = groups.map(() => Array.from({ length: size[x] }, () => new Array(size[y]).fill(EMPTY)));
@@ -31,7 +31,7 @@ const ticks = (axis, field, room) => {
   return out;
 };
 
-// One map as SVG.
+// Returns a map as SVG.
 const draw = (table, x, y, look, wide, title, what) => {
   const { top, below, right, letter } = data.sizes, left = Math.max(data.sizes.left, 12 + 6 * Math.max(0, ...y.ticks.map(([, words]) => words.length))), clamp = value => Math.min(40, Math.max(11.5, value));
   const field = clamp(wide / x.names.length), high = clamp(wide / y.names.length);
@@ -72,7 +72,7 @@ const draw = (table, x, y, look, wide, title, what) => {
 
 const chosen = name => Number(form.elements[name].value);
 
-// The axes that are not drawn: each at one of its parts, or all of it together.
+// Returns the axes that are not drawn. The reader selects one part or all parts of each of them.
 const others = (x, y, of) => data.axes.map((_, axis) => axis).filter(axis => ![x, y, of].includes(axis));
 const fields = () => {
   const left = others(chosen("x"), chosen("y"), chosen("of"));
@@ -112,7 +112,7 @@ const show = cells => {
 form.hidden = false;
 form.addEventListener("change", () => ask(show));
 form.addEventListener("submit", event => event.preventDefault());
-// Axes that are not drawn are known before anything is loaded.
+// The selections of the axes that are not drawn are shown before the cells are loaded.
 const drawn = ["x", "y", "of"].map(name => form.elements[name].value);
 form.querySelectorAll("label[data-axis]").forEach(label => { label.hidden = drawn.includes(label.dataset.axis); });
 })();

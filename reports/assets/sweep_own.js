@@ -1,5 +1,5 @@
-// What a sweep found at the reader's own sizes, and the cells of its lattice for the maps (sweep.js): a script of its own,
-// loaded when something is asked.
+// Results of a sweep for parameters that the reader enters, and the cells of its lattice for the maps (sweep.js). The
+// cells are in a separate script (sweep_page.py), which is loaded when they are needed.
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
@@ -7,7 +7,8 @@ const EMPTY = -2, UNKNOWN = -1, FARTHEST = 3;
 let data = null;
 const waiting = [];
 
-// Letters of cells, each with how often it follows itself, as numbers: "a" is 0; "_" no point, "?" no reference for the error.
+// Returns the states of cells as numbers. `text` contains letters ("a" is 0), "_" (no point) or "?" (no reference for the
+// error), each followed by its number of repetitions if there are several.
 const spread = text => {
   const out = [];
   for (const [, letter, times] of text.matchAll(/([^\d])(\d*)/g)) {
@@ -17,7 +18,7 @@ const spread = text => {
   return out;
 };
 
-// What two cells are together: the most elements, where all of both is reached.
+// Returns the state of two cells together: the larger number of elements if both are within the tolerance.
 const joined = (a, b) => {
   const { none, some, failed } = data;
   if (Math.min(a, b) < 0) return Math.max(a, b);
@@ -26,7 +27,7 @@ const joined = (a, b) => {
   return a == none && b == none ? none : some;
 };
 
-// Cells at most so many parts away; words are as they were chosen. A cell is its number.
+// Returns the indices of the cells at most `far` parts away from the parts `at`. Axes of words are not varied.
 const around = (at, far) => at.reduce((cells, part, k) => {
   const { names, words } = data.axes[k], out = [], reach = words ? 0 : far;
   for (let i = Math.max(0, part - reach); i <= Math.min(names.length - 1, part + reach); i++)
@@ -39,7 +40,7 @@ const range = (axis, part, far) => {
   return [bounds[Math.max(0, part - far)], bounds[Math.min(bounds.length - 1, part + far + 1)]].map(x => Number(x.toPrecision(3))).join(" to ");
 };
 
-// What was found at the sizes, or near them where no point is in their cell: for each formulation the elements it needs.
+// Shows the elements that each formulation needs at the entered parameters, or near them if their cell has no point.
 const own = find("own"), answer = find("here");
 const show = () => {
   const values = fields.map(field => field.tagName == "SELECT" ? Number(field.value) : Number(field.value.replace(",", ".").trim() || NaN));
@@ -68,7 +69,7 @@ const show = () => {
   answer.append(`Tried ${far ? "near it" : "there"}: ${at.map((part, k) => `${data.axes[k].name} ${range(data.axes[k], part, far)}`).join(", ")}.`, table);
 };
 
-// Calls what with the cells, once they are there.
+// Calls `what` with the cells when they are loaded.
 const ask = what => {
   if (data) return what(data);
   if (waiting.push(what) == 1) document.head.append(Object.assign(document.createElement("script"), { src: own.dataset.cells }));

@@ -1,6 +1,6 @@
-// Shapes of a scene in space: walls of sections, centre lines, rigid bodies, supports, one stored state at a time.
-// Turned by pointer, finger or arrow keys, larger and smaller with + and -, the state chosen with the slider.
-// One WebGL canvas draws for all viewers of the page; without it, or without this script, the still picture stays.
+// Draws a stored state of a scene in space: walls of sections, centre lines, rigid bodies and supports. Pointers and
+// arrow keys rotate the view, + and - zoom, and the slider selects the state. One WebGL canvas draws all viewers of
+// the page. Without WebGL or scripts, the still picture remains.
 "use strict";
 (() => {
 const PAINT = { wall: [0.52, 0.71, 0.87], body: [0.93, 0.8, 0.62] };
@@ -35,7 +35,7 @@ function open() {
   return context;
 }
 
-// Where things are in one state; lengths are those of the picture, whose half size is 1.
+// Positions in one state, in units of half the size of the picture.
 class State {
   constructor(shape, k) {
     this.shape = shape; this.points = shape.at.subarray(7 * shape.count * k, 7 * shape.count * (k + 1));
@@ -43,14 +43,14 @@ class State {
   }
   node(i) { return [0, 1, 2].map(j => this.nodes[3 * i + j] / 32767); }
   centre(i) { return [0, 1, 2].map(j => this.points[7 * i + j] / 32767); }
-  // The point (y, z) of the section at point i.
+  // Returns the point (y, z) of the section at point i.
   corner(i, y, z) {
     const [w, a, b, c] = [3, 4, 5, 6].map(j => this.points[7 * i + j] / 32767), at = this.centre(i);
     return [at[0] + 2 * (a * b - w * c) * y + 2 * (a * c + w * b) * z,
       at[1] + (1 - 2 * (a * a + c * c)) * y + 2 * (b * c - w * a) * z,
       at[2] + 2 * (b * c + w * a) * y + (1 - 2 * (a * a + b * b)) * z];
   }
-  // Corners of a wall at point i of a member: from the near end's to the far end's.
+  // Returns the corners of a wall at point i of a member, interpolated between its ends.
   wall(i, part, corners, far) {
     const out = [];
     for (let j = 0; j < corners.length; j += 2) out.push(this.corner(i, corners[j] + part * ((far ? far[j] : corners[j]) - corners[j]), corners[j + 1] + part * ((far ? far[j + 1] : corners[j + 1]) - corners[j + 1])));
@@ -58,7 +58,7 @@ class State {
   }
   middle(some) { return [0, 1, 2].map(j => some.reduce((sum, i) => sum + this.node(i)[j], 0) / some.length); }
 
-  // {faces, lines, edges, dots}: lists of [point, colour]
+  // Returns {faces, lines, edges, dots}, lists of [point, colour].
   mesh(ink, soft) {
     const faces = [], lines = [], edges = [], dots = [], { members, profiles, bodies, rods, held, hinges } = this.shape;
     const face = (corners, paint) => { for (let i = 2; i < corners.length; i++) faces.push([corners[0], paint], [corners[i - 1], paint], [corners[i], paint]); };
@@ -153,7 +153,7 @@ class Viewer {
     const [a, e] = [this.azimuth, this.elevation].map(d => d * Math.PI / 180), [ca, sa, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
     const right = [-sa, ca, 0], up = [-se * ca, -se * sa, ce], towards = [ce * ca, ce * sa, se];
     gl.uniformMatrix3fv(gl.place("turn"), false, [0, 1, 2].flatMap(j => [right[j], up[j], towards[j]]));
-    // Half a picture holds what may be seen from this side.
+    // The extents of the scene fit in the picture.
     const [wide, tall] = [right, up].map(side => this.shape.corners.reduce((most, c) => Math.max(most, Math.abs(c[0] * side[0] + c[1] * side[1] + c[2] * side[2])), 1e-9));
     const length = 0.9 * this.zoom * Math.min(width / 2 / wide, height / 2 / tall);
     gl.uniform3f(gl.place("scale"), 2 * length / width, 2 * length / height, 0.5);
@@ -161,7 +161,7 @@ class Viewer {
     const paint = (kind, list, lit) => {
       if (!list || !list.length) return;
       gl.uniform1i(gl.place("lit"), lit);
-      gl.uniform1f(gl.place("before"), lit ? 0 : 0.004); // lines and dots lie before the walls they are on
+      gl.uniform1f(gl.place("before"), lit ? 0 : 0.004); // lines and dots are in front of their walls
       [0, 1].forEach(i => {
         gl.bindBuffer(gl.ARRAY_BUFFER, gl.kept[i]);
         gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(list.flatMap(item => item[i])), gl.STREAM_DRAW);
@@ -176,7 +176,7 @@ class Viewer {
     this.label(this.canvas.getContext("2d"), { width, height, many, length, right, up });
   }
 
-  // The picture, a bar of a round length and the directions of the axes.
+  // Draws the picture, a bar of a round length and the axes.
   label(flat, { width, height, many, length, right, up }) {
     flat.drawImage(gl.canvas, 0, 0);
     const half = this.shape.half, round = 10 ** Math.floor(Math.log10(0.3 * width / length * half)), bar = round / half * length;
@@ -193,13 +193,13 @@ class Viewer {
   }
 }
 
-// What plays motions is fetched with the first one; a film has it in itself.
+// Loads the player with the first motion. Films contain it.
 const play = viewer => {
   if (window.beamwork_player) { window.beamwork_player(viewer); return; }
   document.head.append(Object.assign(document.createElement("script"), { src: "player.js", onload: () => window.beamwork_player(viewer) }));
 };
 
-// A shape is fetched when its place comes into view: file://, too, lets a script be loaded. That of a film stands in it.
+// Shapes are scripts, which also load from file://, when they come into view. Films contain their shape.
 const waiting = {};
 window.beamwork_shape = (name, shape) => {
   gl = gl || open();

@@ -74,7 +74,8 @@ VERDICT = {"judged": "fate", "case": "pendulum", "parameters": "", "formulation"
 
 def record(cases=("pendulum", "free_flight_space"),
            formulations=("geometrically_exact", "collocation")):
-    """Returns the record of these cases and formulations. In each combination, the run of radau with the step 0.2 s failed."""
+    """Returns the record of these cases and formulations. In each combination, the run of radau with the step 0.2 s
+    failed."""
     out = []
     for case in cases:
         for k, formulation in enumerate(formulations):
