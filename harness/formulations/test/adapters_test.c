@@ -1,4 +1,6 @@
-/* Derivatives by finite differences must agree with those that the formulations compute. */
+/* Forces and stiffness from finite differences must agree with those from the derivatives that the
+ * formulations compute, within 1e-9. Many elements that are evaluated together must give the same
+ * digits as single elements. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -69,8 +71,8 @@ static status force_of_source(const element_data *d, const node_state x[], force
     return STATUS_OK;
 }
 
-/* Returns the largest difference relative to the largest entry, where unit[] are the units of a
- * force, a moment and a bimoment at each node. */
+/* Returns the largest difference relative to the largest entry. unit[]: factors that give all
+ * entries the same dimension. */
 static double departure(int n, const double a[], const double b[], const double unit[])
 {
     double apart = 0, most = 0;
@@ -133,7 +135,7 @@ static void compare(const adapters_subject *whole, const adapters_subject *part,
 }
 
 /* Computes the geometric stiffness [n x n] of linear buckling about the undeformed element,
- * prestressed by small motions v[n] of its nodes. */
+ * prestressed by small motions v[n] of its nodes. Returns the axial force at the last node. */
 static double prestressed(const adapters_subject *s, const double v[], double K[])
 {
     const int n = s->coordinates, m = s->strains;

@@ -1,4 +1,5 @@
-"""Tests that compare a formulation in another process with the same formulation in C."""
+"""Comparison of a formulation in another process with timoshenko.c: the verdicts must be equal, and the limits must
+agree within 1e-7."""
 import json
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared

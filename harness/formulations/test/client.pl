@@ -1,4 +1,4 @@
-# A formulation written from protocol.md alone, in another language than that of its example: strains, and stresses that
+# A formulation written from protocol.md alone, in another language than the example in it: strains, and stresses that
 # are requested because `prepare` answers without C. One option scales the torsion constant.
 use strict;
 use warnings;
@@ -28,7 +28,7 @@ sub dot { my ($a, $b) = @_; my $s = 0; $s += $a->[$_] * $b->[$_] for 0 .. 2; ret
 sub strains {
     my ($l, @x) = @_;
     my @chord = map { $x[16 + $_] - $x[$_] } 0 .. 2;
-    # Columns of R, which lies by rows: the axes of the nodes.
+    # The columns of R, which is row-major, are the axes of the nodes.
     my @p = map { my $j = $_; [map { $x[6 + 3 * $_ + $j] } 0 .. 2] } 0 .. 2;
     my @q = map { my $j = $_; [map { $x[22 + 3 * $_ + $j] } 0 .. 2] } 0 .. 2;
     my @axis = map { my ($i, $k) = (($_ + 1) % 3, ($_ + 2) % 3);

@@ -1,4 +1,5 @@
-"""The element interface in other languages: the headers in C and C++, the module in Fortran, and the example in Rust."""
+"""The element interface in other languages: the headers must compile in C and C++ without warnings, the Fortran
+module must have their layout and constants, and the example in Rust must give the results of that in C."""
 import os
 import re
 import shutil

@@ -1,6 +1,7 @@
 /* The beam of timoshenko.c with a torsional strain that is integrated along the path by the
- * midpoint rule: The strain is that of the last accepted state plus (t - T)(1 + 10 m^2). Here t is
- * the twist between the nodes, T is the last accepted twist, and m = (t + T)/2. */
+ * midpoint rule: the strain per length is that of the last accepted state plus (t - T)(1 + 10 m^2).
+ * Here t is the twist per length between the nodes, T is its last accepted value, and m = (t +
+ * T)/2. */
 #define beamwork_element timoshenko
 #include "elements/examples/timoshenko.c"
 #undef beamwork_element

@@ -8,7 +8,7 @@ static const parameter_type eta = {
 
 typedef struct damped {
     element_data beam;
-    double eta; /* [s] */
+    double eta; /* retardation time [s] */
 } damped;
 
 static size_t damped_size(const element_request *request)

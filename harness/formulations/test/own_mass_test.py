@@ -1,5 +1,5 @@
-"""A formulation in another process that computes its inertia must agree with the same formulation in C and satisfy the
-interface requirements."""
+"""A formulation in another process that computes its inertia must have the frequencies (within 1e-9) and motions of
+the same formulation in C and satisfy the interface requirements."""
 import json
 import sys
 

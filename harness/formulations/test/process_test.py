@@ -1,4 +1,6 @@
-"""Formulations in Python and Octave in another process, and many elements at once."""
+"""Formulations in Python and Octave that run in another process. The examples must have the verdicts of
+timoshenko.c, every mistake must be reported in one line, and many elements evaluated at once must give the values
+of single evaluations."""
 import json
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""The page on the protocol must agree with the program. A client written in another language from the page alone must
-compute the same results."""
+"""The page on the protocol must agree with the program. A client written in another language from the page alone
+must compute the results of timoshenko.c within 1e-7."""
 import re
 import shutil
 import struct

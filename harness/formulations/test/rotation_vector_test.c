@@ -1,5 +1,5 @@
 /* The error of interpolated total rotation vectors must be that of the derivation in
- * elements/examples/rotation_vector.c, for rotations of any size. */
+ * elements/examples/rotation_vector.c, within 1e-3, for rotations up to 5 rad. */
 #define beamwork_element rotation_vector
 #include "elements/examples/rotation_vector.c"
 #undef beamwork_element

@@ -1,6 +1,7 @@
-/* A bar whose nodes have an additional unknown s, with the energy
+/* A bar of length l whose nodes have the additional unknowns s1 and s2, with the energy
  *   EA/(2l) (dl - l beta (s1 + s2)/2)^2 + EA l gamma (s1^2 + s2^2)/4
- * and weak springs on all other motions. If s is uniform, its axial stiffness is
+ * where dl is the elongation and beta and gamma are constants, and weak springs on all other
+ * motions. If s1 = s2, its axial stiffness is
  * EA/l gamma/(gamma + beta^2). HELD: unknowns that are zero at ends with restrained warping. MASS
  * [kg]: mass of each unknown; without it, the bar uses the default mass. */
 #include <math.h>

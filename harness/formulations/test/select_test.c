@@ -58,7 +58,8 @@ static int grow(sample *s, uint64_t *seed, int depth, int around)
     return value;
 }
 
-/* Removes the k-th pair of brackets from the expression. Returns 0 if there is no such pair. */
+/* Removes the k-th bracket, counted from 0, so that the expression is malformed. Returns 0 if there
+ * is no such bracket. */
 static int without_bracket(const char *expression, int k, char out[LONGEST])
 {
     const char *at = expression - 1;

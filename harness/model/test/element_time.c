@@ -9,7 +9,8 @@
 
 enum { REPEATS = 40, CALLS = 300, TIMED = 4 };
 
-/* Returns the time of one call of a phase [s]. */
+/* Returns the time of one call of a phase [s]: 0: e and J, 1: e, J and H, 2: stress, C and memory,
+ * 3: update. */
 static double lap(chain *c, chain_linearised *w, int phase)
 {
     const element_type *type = c->type;

@@ -1,5 +1,5 @@
-"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, and absence
-of stress."""
+"""Initial shapes of members compared with closed forms: magnified moments, the frequency of a shallow arch, and
+absence of stress. Also: shapes of modes and measured shifts of nodes."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -44,8 +44,8 @@ class ImperfectionTest(SceneCase):
             self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n, *more))
 
     def test_magnified_moment(self):
-        """Under the load N, a bow of amplitude a must cause the moment N a/(1 - N/N_k), for bending about both axes.
-        N_k is the buckling load with the same number of half-waves."""
+        """Under the load N, a bow of amplitude a must cause the largest moment N a/(1 - N/N_k) within 2e-4, for
+        bending about both axes. N_k is the buckling load with the same number of half-waves."""
         bow = 1e-5
         for half_waves, part, where in ((1, 0.5, 0.5), (2, 2.0, 0.25), (3, -3.0, 1 / 6)):
             for amplitude, resultant in ((f"[{bow}, 0]", "Mz"), (f"[0, {bow}]", "My")):
@@ -98,7 +98,8 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, name))
 
     def test_frequency_of_a_shallow_arch(self):
-        """A shallow bow of amplitude a on fixed hinges must have omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I))."""
+        """On fixed hinges, a shallow bow of amplitude a must have the lowest angular frequency omega within 2e-3,
+        where omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I))."""
         area, bow = 1e-3, 0.02
         exact = math.sqrt(math.pi**4 * YOUNG * I / (7850 * area * LENGTH**4) *
                           (1 + area * bow**2 / (2 * I))) / (2 * math.pi)

@@ -1,4 +1,6 @@
-/* Initial elongation and shear strains g (N Eq. 52). */
+/* Members with initial elongation and shear strains g (N Eq. 52) must have the displacements and
+ * reactions of closed forms. Also: points and triads of centre lines, the division of members into
+ * elements, and rigid motions of supports. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -16,8 +18,9 @@ static const char *const names[] = {
     "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* Solves a rectangular member of length 2 m with the initial strains g[3]. Its tip is fixed in the
- * components marked in held[6]. u[6] and F[6] are the coordinates and the reactions of the tip. */
+/* Solves a rectangular member of length 2 m with the initial strains g[3]. It is clamped at one
+ * end, and its tip is fixed in the components marked in held[6]. u[6] and F[6] are the coordinates
+ * and the reactions of the tip. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
@@ -86,7 +89,7 @@ static void shear(const char *name, int direction)
     gsl_test_abs(u[direction == 1 ? 5 : 4] / small, 0, 1e-5, "%s: and does not turn", name);
     solve(name, g, held, u, F);
     /* Timoshenko's clamped beam with the transverse displacement L g of one end has the force 12 EI
-     * L g/(L^3 (1 + Phi)) */
+     * L g/(L^3 (1 + Phi)) with Phi = 12 EI/(GA L^2), where GA is the shear stiffness */
     const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12,
                  L = 2;
     const double Phi = 12 * EI / (GA * L * L), expected = -12 * EI * small / (L * L * (1 + Phi));
@@ -178,8 +181,9 @@ static void moved(const char *name, const double tip[6], centreline_point out[PO
     scene_free(&s);
 }
 
-/* A cubic with the end tangents of an arc deviates from the arc by angle^3/384. The triads must
- * follow its tangents and distribute a twist evenly. */
+/* A cubic with the end tangents of an arc of length 1 deviates from the arc by angle^3/384. The
+ * centre line must lie on the arc, and its triads must follow the tangents, within angle^3/380. A
+ * twist must be distributed evenly. */
 static void arc(const char *name, double angle, double twist)
 {
     const double radius = angle > 0 ? 1 / angle : 0;

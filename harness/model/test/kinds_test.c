@@ -1,4 +1,6 @@
-/* Elements must share the data of one kind if all properties that affect these data are equal. */
+/* Elements must share the data of one kind if, and only if, all properties that affect these data
+ * are equal. Also: weights and distances of the metric, members with a varying section, and
+ * sections given in rotated axes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +22,7 @@ static const double young = 1e4, side[SECTIONS] = {0.1, 0.1 * (1 + 1e-6)};
 
 typedef struct kinds_link {
     int section;
-    double length, strain, curvature; /* curvature about z, or 0 if straight */
+    double length, strain, curvature; /* curvature about z [1/m]; 0: straight */
 } kinds_link;
 
 static void row_of(int count, const kinds_link links[], double force, scene *s)
@@ -127,8 +129,8 @@ static void lengths(const element_type *type)
     }
 }
 
-/* With the strain e in one of two equal links, the force at the end must be -EA e/2, and the joint
- * must move by e/2 times the length of a link. */
+/* With the initial strain e in one of two equal links, which are held at the outer ends, the force
+ * at the end must be -EA e/2, and the joint must move by e/2 times the length of a link. */
 static void strains(const element_type *type)
 {
     static const double strain[] = {1e-3, -1e-7, 1e-10};

@@ -1,4 +1,5 @@
-/* Tests the features that a scene needs. */
+/* The features that a scene needs must follow from the couplings of its sections and from its
+ * analyses. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

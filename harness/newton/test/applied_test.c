@@ -1,5 +1,6 @@
-/* Loads along members and at offsets: total force and moment, in the axes of a member with any
- * section. */
+/* Loads along members and at offsets must have the correct total force and moment for an
+ * unsymmetric section in any direction. Elements that are evaluated together must give the same
+ * digits as one at a time. Reactions at the node of a rigid arm must balance the loads. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -114,8 +115,8 @@ static void along_a_member(const char *name)
     }
 }
 
-/* A load that varies linearly from v to w along a part of a member: q = (v + w)/2 + s (w - v) at x
- * = c + h s, where s is from -1/2 to 1/2. */
+/* A load that varies linearly from v to w along a part of a member: q = (v + w)/2 + s (w - v) at
+ * the fraction c + h s of the length, where s is from -1/2 to 1/2. */
 static void along_a_part(const char *name, int lumped)
 {
     static const double v[3] = {1, -2, 3}, w[3] = {-0.5, 1, 2}, range[2] = {0.15, 0.72};

@@ -1,4 +1,5 @@
-/* Links and chains must agree with dense matrices of all coordinates. */
+/* Links and chains must agree with dense matrices of all coordinates. States on a polynomial path
+ * must be extrapolated exactly. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -256,7 +257,7 @@ static double apart(const model *m, const model_state *a, const model_state *b)
 }
 
 /* Returns the error of the state predicted for the parameter `to` from the states at path[count].
- * The polynomial path reverses at `kink`. */
+ * The path is a polynomial of |path - kink|. */
 static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {

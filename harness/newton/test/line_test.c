@@ -1,6 +1,7 @@
 /* Loads on an element that computes the motion of its sections (element_type.line): the stiffness
- * is the derivative of the forces. For dead forces on an undeformed slender element, the forces are
- * those of the displacement field that is common to all types. */
+ * must be the derivative of the forces within 1e-9. For dead forces on an undeformed slender
+ * element, the forces must be those of the displacement field that is common to all types, within
+ * 1e-13. */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,7 +115,8 @@ static void forces_of(const loaded *of, const node_state x[], double F[N], doubl
     distributed_add_one(&of->eq, kinematics_rest(of->m), x, 0, &of->s.load[0], 1, F, K);
 }
 
-/* Compares K with sixth-order finite differences in the exponential chart. */
+/* Compares K with the derivative of -F from sixth-order finite differences in the exponential
+ * chart. */
 static void derivative(const scene_load *load, const char *name)
 {
     static const double weight[] = {0.75, -0.15, 1 / 60.0};

@@ -1,4 +1,5 @@
-/* Nodal forces of loads along a member and of centrifugal forces. */
+/* The nodal forces of a uniform load along a member must have its force and its first and second
+ * moments. Centrifugal forces must be proportional to the square of the angular velocity. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 

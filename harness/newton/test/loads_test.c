@@ -1,5 +1,6 @@
-/* Loads on nodes of a rotated rigid body agree with the derivatives of their work, and follow their
- * factors along the path. */
+/* Loads on nodes of a rotated rigid body must be the derivatives of their work within 1e-9, must
+ * follow their factors along the path, and must have their derivatives in the tangent within
+ * 1e-5. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

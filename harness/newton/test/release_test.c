@@ -1,5 +1,6 @@
-/* Released ends in a rotated state: the tangent is the derivative of the forces, for any release,
- * node position and load on the member. */
+/* Released ends in a rotated state: the tangent must be the derivative of the forces within 1e-8,
+ * for any release, node position and load on the member. Also: sizes of corrections, condensed
+ * members, and access to the outcomes of analyses. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -132,8 +133,8 @@ static void linearised(release_subject *t, const model_state *s, double path)
             t->A[t->K.row[k] * t->n + j] = t->K.value[k];
 }
 
-/* Solves for equilibrium under a fraction of the load. Returns 1 if the corrections decrease as
- * with an exact tangent. */
+/* Solves for equilibrium under a fraction of the load and checks that the corrections decrease
+ * quadratically, as with an exact tangent. Returns 1 if there is equilibrium. */
 static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];

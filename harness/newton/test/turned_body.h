@@ -121,7 +121,8 @@ static inline void turned_body_motion(const turned_body *s, const double dx[], d
     rotation_between(from, q, turn);
 }
 
-/* Returns the work of the load to first order, which is exact for a force. */
+/* Returns the work of the load during the increments dx: exact for a force, to first order for a
+ * moment. */
 static inline double turned_body_work(const turned_body *s, const double dx[])
 {
     const scene_load *load = &s->scene.load[0];

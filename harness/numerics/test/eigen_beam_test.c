@@ -1,5 +1,6 @@
-/* Buckling loads and frequencies of a simply supported beam with many elements must have the
- * accuracy that round-off allows. */
+/* Eigenvalues compared with closed forms: buckling loads and frequencies of a simply supported beam
+ * with 12 and 600 elements (within 1e-12) and 2000 elements (3e-9), and of strings of masses. Also:
+ * values that a search misses, values lost in round-off, and functions that fail. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -59,9 +60,9 @@ static double beam_energy(void *context, const double x[])
     return sum;
 }
 
-/* Returns eigenvalue mu of the discretised beam. With w = W sin(k pi j h) and slope S cos(k pi j h)
- * at node j, only the two unknowns W and S remain. The function is accurate only for coarse meshes,
- * because the determinants lose digits in proportion to (k pi h)^4. */
+/* Returns the eigenvalue mu of mode k of the discretised beam. With w = W sin(k pi j h) and slope S
+ * cos(k pi j h) at node j, only the two unknowns W and S remain. The function is accurate only for
+ * coarse meshes, because the relative rounding error of the determinants is eps/(k pi h)^4. */
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
@@ -81,9 +82,10 @@ static double mesh_value(const beam *b, int k, int vibration)
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
-/* Returns the expected value from Euler's loads and frequencies (k pi)^2. The loads of the
- * discretised beam are larger by the relative difference (k pi h)^4/720, and its frequencies by
- * half of this difference. */
+/* Returns the expected buckling load or frequency of mode k. For at most 20 elements, it is
+ * computed by mesh_value, otherwise from Euler's value (k pi)^2: the loads of the discretised beam
+ * are larger by the relative difference (k pi h)^4/720, and its frequencies by half of this
+ * difference. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)

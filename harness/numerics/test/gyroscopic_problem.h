@@ -26,8 +26,9 @@ static inline void gyroscopic_problem_alloc(int n, problem *p)
     p->G = p->M + n * n;
 }
 
-/* Fills a positive definite K with eigenvalues of many magnitudes, and an M that is definite on all
- * except the last `massless` coordinates. */
+/* Fills K, M and G. K has eigenvalues of many magnitudes; softening * n is subtracted from its
+ * diagonal, and it is positive definite for softening 0. M is zero for the last `massless`
+ * coordinates and definite for the others. G is proportional to `gyroscopic`. */
 static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int massless,
                                            double softening)
 {
@@ -73,7 +74,7 @@ static inline int gyroscopic_problem_ascending(const void *a, const void *b)
 }
 
 /* Finds all frequencies in ascending order, which belong to almost imaginary lambda, and the
- * largest real part of all lambda. Returns the number of frequencies. */
+ * largest real part of all lambda, at least 0. Returns the number of frequencies. */
 static inline int gyroscopic_problem_by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -82,8 +83,8 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     double *re = calloc(3 * (size_t)m, sizeof *re), *im = re + m, *beta = im + m;
     int count = 0;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) { /* matrices of nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z,
-                                       * column-major */
+        for (int j = 0; j < n; j++) { /* matrices of nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z with nu =
+                                         1/lambda, column-major */
             A[j * m + i] = -p->G[i * n + j];
             A[(n + j) * m + i] = -p->M[i * n + j];
             B[j * m + i] = p->K[i * n + j];

@@ -1,5 +1,6 @@
-/* Frequencies in a rotating frame compared with LAPACK on the full problem: weak and strong
- * gyroscopic terms, singular masses, equal frequencies, and indefinite stiffness. */
+/* Frequencies in a rotating frame must agree with those of LAPACK for the full problem within 1e-9:
+ * weak and strong gyroscopic terms, singular masses, equal frequencies, and indefinite stiffness.
+ * The numbers of frequencies below a limit must be exact. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -79,9 +80,9 @@ static void equal_frequencies(void)
     }
 }
 
-/* With weak gyroscopic terms, a problem with two negative stiffnesses must diverge. With strong
- * gyroscopic terms, it must be stable. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2)
- * lambda^2 + k1 k2. */
+/* Unit masses with the negative stiffnesses k1 and k2 and the gyroscopic term g: the motion must
+ * grow for weak g and must not grow for strong g. The eigenvalues lambda are the roots of lambda^4
+ * + (k1 + k2 + g^2) lambda^2 + k1 k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -316,9 +317,9 @@ static void counts(void)
             }
 }
 
-/* Makes `masses` uncoupled oscillators with the frequencies 1, 2, 3 ... rad/s, followed by `behind`
- * unknowns with the stiffness 1e6. The first two of these form a top, whose slow precession is
- * `slow` [rad/s]. */
+/* Makes `masses` uncoupled oscillators of unit mass with the frequencies 1, 2, 3 ... rad/s,
+ * followed by `behind` unknowns with the stiffness 1e6. The first two of these form a top, whose
+ * slow precession is `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
     const double k = 1e6, g = (k / slow) - slow; /* such that `slow` is a root of w^2 + g w - k */

@@ -1,5 +1,6 @@
-/* Sparse factors compared with LAPACK on random matrices: inertia, condition number and counted
- * work. */
+/* Sparse factors of random matrices compared with LAPACK: solutions, inertia, sign of the
+ * determinant and condition number. Also: rejection of singular matrices, parallel loops, and
+ * factors whose rows are computed in groups. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
@@ -44,8 +45,8 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             A[i * n + j] *= (i % 3 == 0 ? 1e3 : 1) * (j % 3 == 0 ? 1e3 : 1);
 }
 
-/* Returns the difference between x and the solution of LAPACK, relative to the rounding error of
- * elimination with pivoting. */
+/* Returns the largest difference between x and the solution of LAPACK, relative to the largest
+ * component, in units of eps times the condition number of the scaled matrix. */
 static double distance_from_dense(int n, const double A[], const double x[], const double b[])
 {
     double copy[MOST * MOST] = {0}, dense[MOST], worst = 0, scale = 0, norm, condition;
@@ -77,7 +78,7 @@ static int negative_eigenvalues(int n, const double A[])
 }
 
 /* Returns the condition number of S A S in the 1-norm from its inverse, where S is diagonal with
- * the entries 1/sqrt(a_ii). */
+ * the entries 1/sqrt(|a_ii|), or 1 if a_ii = 0. */
 static double scaled_condition(int n, const double A[])
 {
     double scaled[MOST * MOST] = {0}, norm[2];

@@ -103,7 +103,7 @@ static inline void matrices_add(sparse *s, int i, int j, double value)
 }
 
 /* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes. The first `left_out`
- * unknowns of the nodes are omitted. */
+ * unknowns of the chain are omitted. */
 static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out,
                                          const double k[])
 {
