@@ -71,8 +71,8 @@ typedef struct scene_compliance {
 
 /* Control of a continuation, the path of proportional loads. The control coordinate is a
  * translation of a node. With arc-length control, it is only the abscissa of curves. The arc length
- * is dimensionless: the root of the mean over all nodes of (displacement/size of the scene)^2 +
- * rotation^2. */
+ * is dimensionless: its square is the mean over all movable nodes of the mesh, where each rigid
+ * body counts as one node, of (displacement/size of the scene)^2 + rotation^2. */
 typedef struct scene_control {
     int node, component;
     int by_arc; /* 1 if steps measure arc length, 0 if they measure the control coordinate */
@@ -646,7 +646,7 @@ typedef struct scene_quantity {
     double factor, offset; /* reported value = factor * extracted value + offset */
     double near_zero;      /* reference magnitude of relative errors for values near zero, or 0 */
     double tolerance;      /* relative tolerance of the limit, SCENE_TOLERANCE by default */
-    double least_order;    /* lowest order of convergence with respect to the number of elements */
+    double least_order;    /* smallest expected order of convergence with the number of elements */
     scene_prediction prediction;
 } scene_quantity;
 

@@ -1,8 +1,9 @@
-"""Builds the wheel and the source distribution: the backend that pyproject.toml names, and `make wheel`.
+"""Builds the wheel and the source distribution, as the build backend that pyproject.toml names and for `make wheel`.
 
-The wheel is what `make install` installs, below the folder of the module: the program, the library, headers, reference
-values, examples and the report. It is valid for every Python from 3.9, because it contains no extension modules. With
-auditwheel and patchelf in the PATH, `make wheel` also adds the libraries that it needs (GSL, LAPACK, HDF5, ...)."""
+The wheel is what `make install` installs, below the folder of the module: the program, the library, headers,
+reference values, examples and the report. It is valid for every Python from 3.9, because it contains no extension
+modules. With auditwheel and patchelf in the PATH, `make wheel` also adds the libraries that it needs (GSL,
+LAPACK, HDF5, ...)."""
 import base64
 import hashlib
 import io

@@ -1,6 +1,6 @@
-/* Makes and frees scenes, solutions and documents repeatedly, with the command `cycles COUNT`.
- * Prints the bytes in use after a tenth of the cycles and at the end. make lab L=valgrind runs the
- * program with valgrind. */
+/* The command `cycles COUNT` makes and frees scenes, solutions and documents repeatedly. It prints
+ * the bytes in use after COUNT/10 cycles and after COUNT further cycles, and fails if they increase
+ * by more than 100 for each further cycle. make lab L=valgrind runs the program with valgrind. */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -82,8 +82,8 @@ static double plateau(const draw *d, int i, double n)
     return 1 / (1 + pow(n / d->bend, d->order));
 }
 
-/* Returns the error of the mean of a function that decays from one end over the length 1/bend. The
- * order is one until the mesh resolves this length, then two. */
+/* The order rises from zero on coarse meshes to two on meshes that resolve a length of 1/bend, more
+ * gradually than for `plateau`. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;

@@ -70,7 +70,7 @@ class MotionTest(PeerTest):
 class Closed(MotionTest):
 
     def test_vibration(self):
-        """A force that begins to act at the time 0 must excite the modes of a cantilever."""
+        """After a force begins to act at the time 0, the deflection of a cantilever must be the sum over its modes."""
         def check(peer, name, _):
             made, force = bar(radius=0.02), 1e-3 * EI / LENGTH**2
             made.loads["force"] = {"force": [0, force, 0], "on": "tip", "time": "1 + 0*t"}
@@ -294,7 +294,8 @@ class Steps(PeerTest):
             self.assertAlmostEqual(y, 1 - math.cos(t), delta=1e-4)
 
     def test_bound(self):
-        """A larger error of the driver must give shorter steps; an error that does not become smaller is a failure."""
+        """A larger error of the driver must give shorter steps, and an error that does not become smaller must be a
+        failure."""
         few, many = (self.run_motion(error)["iterations"] for error in ("0.1", "10.0"))
         self.assertGreater(many, 4 * few)
         self.assertIn("when the step is halved", self.run_motion("(-1)**round(math.log2(n))/h**2")["failure"])

@@ -315,7 +315,8 @@ class Beams(Model):
 
 
 class _Curve:
-    """Values over the time of the program, in which the stations are at 1, 2, 3 and so on."""
+    """Values as functions of the time of the program. Without a pause, the stations are at the times 1, 2, 3 and so
+    on."""
 
     def __init__(self, scene: Scene, stations: Sequence[float], pause: float = 0.0, loaded: bool = True) -> None:
         """pause: time after each station in which loads and motions do not change."""
