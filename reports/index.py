@@ -73,16 +73,16 @@ def rows_agreed(cases, level):
 
 @dataclass(frozen=True)
 class Sizes:
-    """The verdicts of a formulation by the size of the error of its limit."""
+    """Numbers of verdicts of a formulation, by the error of its limit."""
 
     judged: int = 0
     passes: int = 0
     biased: int = 0  # different limit within the tolerance
-    beyond: int = 0  # limit outside the tolerance, at most PERCENT away
-    far: int = 0  # limit more than PERCENT away
+    beyond: int = 0  # limit outside the tolerance, with an error of at most PERCENT
+    far: int = 0  # limit outside the tolerance, with an error above PERCENT
     derived: int = 0  # of the last two: limits that follow from the equations as printed
     unknown: int = 0  # inconclusive
-    none: int = 0  # no solution, or not applicable
+    none: int = 0  # no solution, or refused
 
 
 PERCENT = 0.01
@@ -105,7 +105,7 @@ def sizes_of(cases):
 
 
 def tolerance_of(cases):
-    """Returns the relative tolerance of most reference values, or NaN."""
+    """Returns the most frequent relative tolerance of the verdicts, or NaN if there are no verdicts."""
     known = collections.Counter(float(f"{v.tolerance / abs(v.truth):.3g}") for c in cases for p in c.points
                                 for s in p.series for v in s.verdicts if v.truth and math.isfinite(v.tolerance))
     return known.most_common(1)[0][0] if known else math.nan

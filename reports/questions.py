@@ -1,5 +1,5 @@
-"""The questions that readers ask of a case: its buckling load, its first frequencies, and so on. Each question has the
-judged quantities of one sort, so that a formulation is not ranked by its thirteenth frequency."""
+"""Questions about a case, such as its buckling load or its first frequencies. Formulations are ranked by the quantities
+of one question. High frequencies and higher buckling loads belong to no question."""
 from dataclasses import dataclass
 
 import yaml
@@ -43,7 +43,8 @@ def question_of(kind, attributes, analyses):
 
 
 def first_of(question, described):
-    """Returns the names of [(quantity, kind, attributes)] without the higher modes of each analysis and family."""
+    """Returns the names of [(quantity, kind, attributes)], limited to the first modes (FIRST) of each analysis and
+    family."""
     modes, kept = {}, []
     for name, kind, attributes in sorted(described, key=lambda one: int(one[2].get("which", 0))):
         of = kind, attributes.get("analysis"), attributes.get("family"), attributes.get("value")

@@ -51,7 +51,7 @@ TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences
 
 
 class Refused(Exception):
-    """Request that is rejected, with the text for the user."""
+    """Raised if a request is rejected. The message is for the user."""
 
 
 def checked(value, name, count, each, why, numbers="biuf"):

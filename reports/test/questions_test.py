@@ -1,4 +1,5 @@
-"""Tests the questions of cases, the verdicts by size, and the default choice on the first page."""
+"""Quantities must be assigned to questions, verdicts counted by error, and a default formulation chosen, as
+reports/questions.py and reports/index.py describe."""
 import math
 import unittest
 
