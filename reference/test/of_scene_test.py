@@ -1,4 +1,5 @@
-"""Tests scenes solved as networks, and values of cases at new parameter points."""
+"""Scenes solved as networks must agree with closed forms. Values of cases at any parameter points
+must agree with stored exact values within twice their uncertainty."""
 import csv
 import math
 import pathlib

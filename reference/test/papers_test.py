@@ -1,4 +1,5 @@
-"""Tests the tables of papers and equations, and the programs that derive values."""
+"""The tables of papers and equations must be complete and name existing cases, functions and
+tests."""
 import ast
 import csv
 import fnmatch
