@@ -1,4 +1,5 @@
-/* Tests loads along a collocation element that are part of its equilibrium. */
+/* Collocation elements with loads along them must be in equilibrium with these loads, and their
+ * tangent must agree with finite differences. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

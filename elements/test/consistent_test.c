@@ -1,5 +1,6 @@
-/* Tests beamw_consistent with uniform strains of any size, and its derivatives at large rotations.
- * To second order, the strains without shear agree with J Eq. 66. */
+/* beamw_consistent must be exact for uniform strains of any size, and its derivatives must agree
+ * with finite differences at large rotations. To second order, the strains without shear must agree
+ * with J Eq. 66. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

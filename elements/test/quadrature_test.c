@@ -1,5 +1,5 @@
-/* Tests the points and weights of Gauss rules, also when threads and forked processes request
- * tables simultaneously. */
+/* Points and weights of Gauss rules must be exact to round-off, also if threads and forked
+ * processes request tables simultaneously. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -333,8 +333,8 @@ static void strain_update_tests(void)
 
 enum { MASSLESS_MOST = 80 };
 
-/* Checks a free member with an I-section. `omit` is the omitted physics; heavy 1: warping
- * amplitudes have mass. */
+/* Warping amplitudes of a free member with an I-section must be treated as massless if and only if
+ * they have no mass. `omit` is the omitted physics; heavy 1: warping amplitudes have mass. */
 static void warps(unsigned omit, int heavy)
 {
     static const double y[3] = {0, 1, 0}, point[][2] = {{-0.03, 0.05},  {0, 0.05},  {0.03, 0.05},
