@@ -1,4 +1,5 @@
-"""Quantities along members: exact values, results between loads within a member, and errors of the discretisation."""
+"""Quantities along members: they must be exact for uniform beams under loads within a member, must have their values
+on either side of a jump, and must converge on arcs and under tension."""
 import json
 import math
 import unittest

@@ -1,5 +1,6 @@
-/* Limit points, bifurcations and branch switching of continuations, compared with closed forms and
- * with each other. */
+/* Limit points, bifurcations and branch switching of continuations must agree with closed forms and
+ * with each other. Also: steps of Newton's method near critical points, the number of critical
+ * loads below a load, and results that do not depend on the number of threads. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -68,8 +69,9 @@ static void limit_points_of_fine_meshes(void)
     cell_result_free(&r);
 }
 
-/* The bifurcations of a perfect cantilever column with its smallest stiffness about z are at P (1 -
- * P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
+/* The bifurcations of a perfect cantilever column with its smallest stiffness about z are at P
+ * (1 - P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2) for k = 1, 2 ..., where EI is the smallest bending
+ * stiffness. */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -532,7 +534,7 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* Sums have a fixed order. */
+/* Threads add in a fixed order, so results with several threads must be equal to the bit. */
 static void threads_change_no_bit(void)
 {
     static const struct {

@@ -1,5 +1,5 @@
-/* Critical loads of bars with known results, for every formulation: sign, order, number of equal
- * values, and loads that do not exist. */
+/* For every formulation, critical loads of bars must have the known values, signs, order and
+ * multiplicities. If a load does not exist, no value may be given. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -55,7 +55,8 @@ static void arm_before(scene *s, const double direction[3])
     with_arm(s, direction, -length / 2);
 }
 
-/* Solves tan(kL) = 1/(k a) for kL in (0, pi/2) if a > 0, and in (pi/2, pi) if a < 0. */
+/* Returns the critical load k^2 EI if the load acts at the distance a = `arm` beyond the end of the
+ * bar of length L: tan(kL) = 1/(k a), with kL in (0, pi/2) if a > 0, and in (pi/2, pi) if a < 0. */
 static double load_with_arm(double arm)
 {
     double low = (arm > 0 ? 1e-9 : 0.5 + 1e-9) * PI / length,
@@ -216,7 +217,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A critical load above 1e9 times Euler's load would be due to round-off. */
+/* No critical load may exceed 1e9 times Euler's load (angle_bent: 1e15 N), because it would be due
+ * to round-off. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

@@ -1,5 +1,5 @@
-"""Springs with unsymmetric stiffness and damping at bodies, at offset and released ends, and in constraints, compared
-with matrices computed independently."""
+"""Springs with unsymmetric stiffness and damping at bodies, at offset and released ends, and in constraints, must
+give the results of matrices that are computed independently, in all analyses."""
 import math
 
 import numpy

@@ -1,4 +1,6 @@
-/* Elements with an initial shape of constant curvature and torsion. This shape has no stress. */
+/* Elements with an initial shape of constant curvature and torsion must have no stress in this
+ * shape. Results under loads along straight and curved members must converge with the order of the
+ * element. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -57,7 +59,8 @@ static status prepare(const formulation *chosen, const section *c, double most, 
     return outcome;
 }
 
-/* Computes r = int_0^x R (e_x + strain) dt and R = exp(x turn~) by quadrature. */
+/* Computes r = int_0^x R (e_x + strain) dt and R = exp(x turn~) at x by quadrature, where `turn` is
+ * the initial curvature. */
 static void along_arc(const element_subject *s, double x, const double strain[3], double r[3],
                       double R[9])
 {
@@ -316,8 +319,8 @@ static void large_rotations(void)
 }
 
 /* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length.
- * The moment at t is due to the load beyond t, and the displacement of the tip is int M m/EI,
- * without axial strain. */
+ * The moment at t is due to the load beyond t, and the displacement of the tip is int M m/EI, where
+ * m is the moment due to a unit force at the tip, without axial strain. */
 static void arc_by_castigliano(void)
 {
     enum { POINTS = 20 };

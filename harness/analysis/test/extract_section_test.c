@@ -33,7 +33,8 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
 
 static double slope(double u, void *top)
 {
-    /* d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
+    /* d s/d u at sin theta = top - u^2 for F/EI = 1, where s is the arc length and theta the
+     * inclination: ds = d theta/sqrt(2 (top - sin theta)) */
     const double sine = *(double *)top - u * u;
     return sqrt(2) / sqrt(1 - sine * sine);
 }
@@ -87,8 +88,9 @@ static void bends(const element_type *e, ask_tally *tally)
                  i ? "inside" : "at the root", coarse[i], fine[i]);
 }
 
-/* A torque on a bar with warping restrained at its root: B = T/lambda sinh(lambda b)/cosh(lambda
- * l), where lambda^2 = G It/(E Iw), and b is measured from the tip (Vlasov). */
+/* A torque on a bar with warping restrained at its root: its bimoment is B = T/lambda sinh(lambda
+ * b)/cosh(lambda l), where lambda^2 = G It/(E Iw), l is the length, and b is measured from the tip
+ * (Vlasov). */
 static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
                    double error[4])
 {

@@ -174,8 +174,8 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """A clamped-clamped member under the temperature T with gradients g_y and g_z has N = -EA alpha T,
-        Mz = EI alpha g_y and My = -EI alpha g_z."""
+        """A clamped-clamped member under the temperature T with gradients g_y and g_z must have N = -EA alpha T, Mz
+        = EI alpha g_y and My = -EI alpha g_z."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:

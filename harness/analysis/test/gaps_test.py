@@ -1,5 +1,5 @@
-"""Stops with gaps: one load step and many load steps lead to the same state. Each stop is open, or its force is
-proportional to its compression."""
+"""Stops with gaps: one load step and many load steps must lead to the same state. Each stop must be open, or its
+force must be proportional to its compression."""
 import random
 import re
 

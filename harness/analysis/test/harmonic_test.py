@@ -39,8 +39,8 @@ SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="u
 
 
 def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
-    """Solves EI v'''' - N v'' - mu w^2 v = 0 with four exponentials. Returns the exponents and EI. Proportional
-    damping replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
+    """Solves EI v'''' - N v'' - mu w^2 v = 0 with four exponentials. Returns the exponents and EI, which is complex
+    with damping. Proportional damping replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
     w = 2*math.pi*hertz
     stiff = EI*length*(1 + 1j*w*by_stiffness)
     s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
@@ -137,7 +137,8 @@ class DampedModesTest(ProgramTest):
         self.same(ratios, [0.1]*2)
 
     def test_proportional(self):
-        """Damped by a M + b K, every mode of a beam has the damping ratio (a/w + b w)/2 (w: undamped circular frequency)."""
+        """With the damping a M + b K, every mode of a beam must have the damping ratio (a/w + b w)/2 within 1e-5,
+        where w is its undamped circular frequency."""
         scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
         for formulation in ("collocation", "geometrically_exact", "sheet_third"):
             plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(

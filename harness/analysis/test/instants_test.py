@@ -125,7 +125,9 @@ class Instants(ProgramTest):
         self.near(found["decay"]**2, -square)
 
     def test_rotor(self):
-        """A disc spinning between bearings has eigenvalues s with I s^2 - i J w s + c s + k = 0."""
+        """A disc that spins at w between bearings has eigenvalues s with I s^2 - i J w s + c s + k = 0, where I and
+        J are its transverse and polar moments of inertia, and k and c are the stiffness and damping against
+        tilting."""
         found = self.solved(ROTOR)
         exact = [abs(numpy.roots([0.02, 0.1 + sign * 0.03j * 300, 400]).imag) for sign in (1, -1)]
         bounce = math.sqrt(1600 / 2 - (0.4 / 4)**2)
@@ -140,7 +142,7 @@ class Instants(ProgramTest):
                 self.near(found[f"m_{i}"], found[f"r_{i}"])
 
     def test_bead(self):
-        """A bead between springs of stiffness k and l, in axes that rotate at w, has eigenvalues s with
+        """A bead of mass m between springs of stiffness k and l, in axes that rotate at w, has eigenvalues s with
         (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
         for time in (0, 0.123, 0.3):
             found = self.solved(BEAD % {"time": time})

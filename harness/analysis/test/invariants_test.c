@@ -71,11 +71,11 @@ typedef struct invariants_subject {
     const element_type *formulation;
     ask_tally *tally;
     int coarse;
-    int rigid; /* 1: the case has frequencies next to those of rigid motions */
+    int rigid; /* result of has_rigid_motions */
 } invariants_subject;
 
-/* Returns 1 if the case has frequencies next to those of rigid motions, which are zero and have
- * larger rounding errors. */
+/* Returns 1 if frequencies are requested of a structure that no node supports. Its rigid motions
+ * have the frequency zero and increase the rounding errors of the other frequencies. */
 static int has_rigid_motions(const case_type *type)
 {
     scene s;

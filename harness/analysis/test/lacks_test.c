@@ -1,6 +1,6 @@
-/* A formulation that supports shear includes it in both directions, or declares one as missing and
- * rejects scenes with shear in this direction. A guided cantilever has the deflection F l^3 (1 +
- * Phi)/(12 EI). */
+/* A formulation that supports shear must include it in both directions, or declare one as missing
+ * and reject scenes with shear in this direction. A guided cantilever has the deflection F l^3 (1 +
+ * Phi)/(12 EI) with Phi = 12 EI/(k G A l^2). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -37,7 +37,8 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 
-/* Returns the deflection; NAN: the scene is rejected, with the reason in words[200]. */
+/* Returns the deflection; NAN: the scene is rejected, with the reason in words[200]; INFINITY: it
+ * cannot be solved. */
 static double deflection(const element_type *type, scene *s, char *words)
 {
     formulation chosen;

@@ -1,4 +1,6 @@
-/* Linkages with large rotations. */
+/* Linkages with large rotations must move as rigid links do (four-bar linkage, universal joint),
+ * and mechanisms that can move freely must be named. Springs must satisfy equilibrium and closed
+ * forms. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,4 +1,5 @@
-"""Load cases and combinations apply exactly the loads they list, in every analysis and with all formulations."""
+"""Load cases and combinations must apply exactly the loads that they list, in every analysis and with all
+formulations."""
 import json
 import unittest
 

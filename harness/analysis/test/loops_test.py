@@ -55,8 +55,9 @@ INPUTS = {"force": {"force": "tool", "along": "ux"}, "drive": {"drive": "shake"}
 
 
 class Plant:
-    """Equations of motion of the cart and the tool with the loop u = (Kp + Kd s + Ki/s)(r - S x - S0 q), where q is the
-    motion of the base."""
+    """Equations of motion of the cart and the tool with the loop u = (Kp + Kd s + Ki/s)(r - S x - S0 q), where r is
+    the reference, x are the displacements of cart and tool, S x is the measured one, and q is the motion of the
+    base. S0 is -1 if the measurement is relative to the base, otherwise 0."""
 
     def __init__(self, k1=300.0, c=4.0, at="cart", kp=0.0, kd=0.0, ki=0.0, relative=False):
         self.K = np.array([[k1 + K2, -K2], [-K2, K2]])
@@ -344,7 +345,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the reference jumps at the start of the motion, so e' has no impulse
+            # the reference jumps at the start of the motion, so the derivative of the control error has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)

@@ -1,4 +1,4 @@
-"""Continuations find the first critical points of a path, also if several coincide, with any step size."""
+"""Continuations must find the first critical points of a path, also if several coincide, with any step size."""
 import json
 import math
 import unittest

@@ -1,4 +1,5 @@
-/* Abscissas of curves, and limit points. */
+/* Curves must have the requested abscissas, and limit points must be found at the extremes of the
+ * load. Also: convergence of Newton's method, and round-off in slender bars and fine meshes. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -343,7 +344,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     } else if (!ask_count(tally, &a, "bar of slenderness %g, %d elements", slenderness, n)) {
         return;
     }
-    /* allowed error: 64 eps (L/side)^2 for the forces, plus round-off of the nodal positions */
+    /* allowed relative error: 64 eps (L/side)^2 for the forces, plus round-off of the nodal
+     * positions */
     const double settles = 64 * DBL_EPSILON * slenderness * slenderness + 1e-14 * n;
     for (int k = 0; k < 3; k++)
         gsl_test(!(fabs(a.value[k] / exact - direction[k]) <= settles),

@@ -1,5 +1,5 @@
-/* Without loads, drives and initial strains, displacements and forces are zero: in every case, with
- * every formulation and its evaluated options. */
+/* Without loads, drives and initial strains, displacements and forces must be zero within `still`
+ * and `unstressed`: in every case, with every formulation and its evaluated options. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

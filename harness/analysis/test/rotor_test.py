@@ -344,8 +344,9 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """A motion z = y + i u from an initial velocity satisfies m z'' + (c - i g) z' + (K - i q) z = 0. The energy
-        balance includes the work of the films."""
+        """A motion z = y + i u of the disc from an initial velocity must satisfy m z'' + (c - i g) z' + (K - i q) z
+        = 0 with the mass m, the stiffness K, the damping c, and the cross-coupled stiffness q and damping g. The
+        energy balance must include the work of the film."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)

@@ -102,8 +102,8 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(across).max(), 1e-12, formulation)
 
     def test_bimoments_of_elements(self):
-        """Bimoments are linear within an element and continuous at nodes. They are zero at an end that is free to
-        warp."""
+        """Bimoments must be linear within an element and continuous at nodes, and zero at an end that is free to
+        warp, within 1e-8."""
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
         bimoment = shapes["bimoment"][-1].ravel()
         size = numpy.abs(bimoment).max()

@@ -1,4 +1,5 @@
-/* Singular stiffness matrices. */
+/* If a structure can move freely, the analysis must end with SINGULAR, and the message must name
+ * the node and its motion. Supported structures must be solved. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

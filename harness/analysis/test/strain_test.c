@@ -1,5 +1,6 @@
 /* Initial strains due to temperature or misfit, compared with closed forms in analyses about the
- * undeformed state. */
+ * undeformed state. Also: bars whose free rotation does not matter, and critical loads beside loads
+ * that stay constant. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -271,7 +271,7 @@ class Turns(ProgramTest):
 
 
 def question(case, formulation, n, *assignments, memory=None):
-    """Returns the command; `memory` [bytes] limits its memory."""
+    """Returns the arguments of the command and a function that limits its memory to `memory` [bytes]."""
     def limit():
         if memory:
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))

@@ -61,7 +61,9 @@ class Unbalance(ProgramTest):
                 for name, values in curves.items() if name.endswith("_real")}
 
     def test_jeffcott(self):
-        """In forward whirl, the response is y + i z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
+        """In forward whirl, the response must be y + i z = w^2/(K - i q - m w^2 + i c w), where z lags y by 90
+        degrees. K and q are the stiffness and its cross-coupled part, c is the damping, m the mass, and w the
+        angular velocity."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),

@@ -16,8 +16,8 @@
 #include "harness/study/study.h"
 
 /* Clamped column of length 1, EI = 1, mass 1, with an additional mass at its tip, in `planes`
- * uncoupled planes. The stiffness in the second plane is `ratio` times that in the first, and P
- * follows the tip. */
+ * uncoupled planes. The stiffness in the second plane is `ratio` times that in the first, and the
+ * compressive force P follows the tip. */
 typedef struct checked_column {
     sparse K, M, C;
 } checked_column;

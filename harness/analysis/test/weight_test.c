@@ -1,4 +1,5 @@
-/* Gravity on bodies: the force m g acts at the centre of mass, which moves with the node. */
+/* Gravity on bodies: the force m g must act at the centre of mass, which moves with the node. Also:
+ * forks at the ends of a bent beam, and released ends. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -138,7 +139,7 @@ static int pinned(scene *s, int holds, scene_body body)
 }
 
 /* The period of small oscillations of a body whose centre is at a distance d from its pin is 2 pi
- * sqrt(I/(m g d)). */
+ * sqrt(I/(m g d)), where I is the moment of inertia about the pin. */
 static void period(void)
 {
     static const double steps[] = {[SCENE_ALPHA] = 5000,

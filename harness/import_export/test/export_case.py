@@ -1,4 +1,4 @@
-"""Scenes to be exported, the contents of a deck, and the results of CalculiX."""
+"""Scenes to be exported to CalculiX, and a base class that reads the deck of a scene and the results of CalculiX."""
 import os
 import re
 import shutil

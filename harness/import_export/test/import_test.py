@@ -1,4 +1,5 @@
-"""Tests import: conversion of names, units, parameters and axes; reports of errors; and verify with imported values."""
+"""The import must convert names, units, parameters and axes, and report all errors with their lines. `verify` must
+judge imported values and read only files that are complete."""
 import json
 import pathlib
 import unittest
@@ -322,7 +323,7 @@ class Import(ProgramTest):
                              code=status)
 
     def test_files_of_mbdyn(self):
-        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd."""
+        """Files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd must be read without loss of digits."""
         self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):

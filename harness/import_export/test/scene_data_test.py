@@ -1,4 +1,5 @@
-"""Tests scenes as data, from `scene --format json`."""
+"""`scene --format json` must give the scene file, the required physics, the axes of the members, the constants of
+the sections, and the meanings of the quantities."""
 import json
 import math
 import unittest
