@@ -289,8 +289,9 @@ static void check_skew(const test_element *s, const double G[], check_result *on
                              i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
-/* Checks that the velocity v of the rotating frame gives the kinetic energy 1/2 v^T M v = -V, where
- * V is the centrifugal potential, and that G v = -2 F, where F is the centrifugal force. */
+/* For the velocity v of the rotating frame, checks that G v = -2 F, where F is the centrifugal
+ * force, and, with rotary inertia, that the kinetic energy 1/2 v^T M v is -V, where V is the
+ * centrifugal potential. */
 static void own_motion(const test_element *s, const node_state x[], const inertia_output *out,
                        check_results *c)
 {

@@ -155,8 +155,8 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Returns the physics that have no effect in the analyses of the scene: second-order physics in
- * linear analyses, and rotary inertia in static analyses. */
+/* Returns the physics that have no effect in any analysis of the scene: second-order physics if all
+ * analyses are linear about the undeformed state, and rotary inertia if all analyses are static. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -314,7 +314,9 @@ static int agree(double coarse, double fine)
 }
 
 /* Solves on repeatedly doubled meshes until the changes on two meshes agree. The result is the
- * larger of these changes times omission_safety. */
+ * larger of these changes times omission_safety or, if the last change is many_times omission_most,
+ * the last change. If a further solution would take longer than `brief`, one change of this size is
+ * sufficient. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

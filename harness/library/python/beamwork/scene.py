@@ -187,8 +187,8 @@ class Scene:
         return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
 
     def write(self, path: str | os.PathLike[str] | None = None) -> str:
-        """Returns the text of the scene as a file, with expanded loops and expressions and 17 digits. If `path` is
-        given, writes this file as well."""
+        """Returns the text of the scene as a file, with expanded loops and expressions, and numbers that keep all
+        bits. If `path` is given, writes this file as well."""
         with self._lock:
             text = text_of("scene_write", self._ready().pointer, entries=self._lines)
         if path is not None:

@@ -36,8 +36,7 @@ def quoted(text: str, where: str) -> str:
 
 
 def written(value: Any, where: str, depth: int = 0) -> str:
-    """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. The key 'from_' is written as
-    'from'."""
+    """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. Keys are written as by name()."""
     if depth > _DEEPEST:
         raise Refused(f"{where} is nested deeper than {_DEEPEST} levels")
     if hasattr(value, "tolist"):  # numpy: an array or a numpy number

@@ -79,7 +79,7 @@ def critical_factors(K: Any, G: Any) -> list[float]:
 
 
 def require_axial_loads(scene: Scene, mesh: Mesh, why: str) -> None:
-    """Raises Refused if a load has a component across a member."""
+    """Raises Refused if a load is a moment or has a component across any member."""
     axes = [[float(row[0]) for row in e.R] for e in mesh.elements]
     for load in scene.loads:
         if load.kind.endswith("moment") or any(abs(sum(a * b for a, b in zip(x, v))) < (1 - 1e-9) * math.hypot(*v)

@@ -85,7 +85,8 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
 
 
 def check(scene: Scene, element: Element, program: str) -> None:
-    """Raises Refused if the element lacks physics of the scene, or if the driver does not read one of its keys."""
+    """Raises Refused if the element lacks physics of the scene, or if the driver does not read a key or cannot
+    represent an entry of the scene."""
     lacks = sorted(scene.physics - element.offers - {"haringx", "engesser"} - _OF_KINDS)  # the limit shows the theory of shear
     if lacks:
         raise Refused(f"{lacks[0]}: the element of {program} does not model it")

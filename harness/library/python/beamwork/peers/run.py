@@ -40,8 +40,9 @@ def _values(scene: Scene, element: Any, answers: dict[str, Answer]) -> dict[str,
 
 
 def _groups(scene: Scene, asked: set[str]) -> list[list[Analysis]]:
-    """Returns a group for each analysis with quantities: the analysis about whose state it is, if any, then the
-    analysis. Each group is solved with a separate model, so that no analysis starts from the state of another."""
+    """Returns groups that together contain all analyses with quantities. Each group is an analysis, after the
+    analysis about whose state it is, if any. Each group is solved with a separate model, so that no analysis
+    starts from the state of another group."""
     wanted = [a for a in scene.analyses.values() if a.name in asked]
     states = {a.about for a in wanted}
     return [[*([scene.analyses[a.about]] if a.about else []), a] for a in wanted if a.name not in states]

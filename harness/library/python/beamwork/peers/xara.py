@@ -225,7 +225,8 @@ class Frame(Model):
 
     def _apply(self, model: Any, stations: Sequence[float], scale: float = 1.0) -> None:
         """Adds a separate pattern for each load and each driven component, with its values at the
-        stations, which are the times 1, 2, 3 and so on. Without stations, the factor is 1."""
+        stations, which are the times 1, 2, 3 and so on. Without stations, the factor of a load is that at the
+        path parameter 1."""
         times = [float(k) for k in range(max(len(stations), 1) + 1)]
         tag = 0
 
