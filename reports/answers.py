@@ -185,12 +185,39 @@ def differ(a, b):
     return max(a.least, b.least) > 2 * min(a.least, b.least)
 
 
+@dataclass(frozen=True)
+class Price:
+    """What a run costs at a parameter point. `name` is "time", or "cost" if there are no times of several rounds, because
+    times of single runs scatter too much for comparisons."""
+    name: str
+    of: object  # function of a mesh [s]
+    rounds: int = 0  # number of timed rounds
+
+    @property
+    def words(self):
+        if self.name == "cost":
+            return "cost [ms]: counted work (no rounds were timed)"
+        return f"run time [ms], fastest of {self.rounds} rounds" if self.rounds > 1 else "run time [ms] of one run"
+
+
+def price_of(point):
+    meshes = [m for s in point.series for m in s.meshes]
+    rounds = [m.clock.repeats for m in meshes if m.clock.repeats > 1]
+    if rounds:
+        return Price("time", lambda m: m.seconds if m.clock.repeats > 1 else math.nan, min(rounds))
+    if any(math.isfinite(m.cost) for m in meshes):
+        return Price("cost", lambda m: m.cost)
+    return Price("time", lambda m: m.seconds, 1)
+
+
 def front(point, quantity):
+    """Returns [(series, mesh)] of the Pareto front of error and run time, or cost (price_of)."""
+    price = price_of(point).of
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
-             if math.isfinite(m.errors.get(quantity, math.nan))]
+             if math.isfinite(m.errors.get(quantity, math.nan)) and math.isfinite(price(m))]
     best, out = math.inf, []
-    for series, mesh in sorted(cells, key=lambda c: (c[1].seconds, abs(c[1].errors[quantity]))):
+    for series, mesh in sorted(cells, key=lambda c: (price(c[1]), abs(c[1].errors[quantity]))):
         if abs(mesh.errors[quantity]) < best:
             best = abs(mesh.errors[quantity])
             out.append((series, mesh))

@@ -4,7 +4,7 @@ import functools
 import math
 from dataclasses import dataclass
 
-from reports import answers, data
+from reports import answers, data, peers
 from reports.figures import plots
 from reports.answers import LEVELS
 from reports.structure_drawing import describe, draw, scene
@@ -133,20 +133,25 @@ MOST_PANELS = 6  # largest number of panels in the figure of the other quantitie
 MOST_ROWS = 1500
 
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
-           "left_out": []}
+           "beside": [], "starred": False, "untimed": [], "left_out": []}
 
 
-def question_of(site, point, quantity, name):
+def question_of(site, case, point, quantity, name):
     """Returns the figures of one quantity, {figure: Image or None}. `left_out` contains the formulations that are shown
     only in the figure `further` or not at all."""
-    shown, further = plots.leading(point, quantity)
+    beside = peers.beside(site, case, point, quantity)
+    shown, further = plots.leading(point, quantity, plots.MOST_CURVES - min(3, len(beside)))
 
     def draw(series, kind, *abscissae):
         return plots.errors_figure(
             site, point, quantity, series, abscissae, f"{name}_{kind}",
             told=len(abscissae) == 1) if series else None
 
-    return {"elements": draw(shown, "elements", "elements"), "time": draw(shown, "time", "time"),
+    return {"elements": plots.convergence_figure(site, point, quantity, shown, f"{name}_elements"),
+            "time": plots.errors_figure(site, point, quantity, shown, ("time",), f"{name}_time", beside=beside, short=True),
+            "starred": any(s.other for s in shown),
+            "untimed": [s.key for s in shown if not any(math.isfinite(answers.price_of(point).of(m)) for m in s.meshes)],
+            "beside": [one.name for one in beside],
             "work": draw(shown, "work", "unknowns", "work"),
             "further": draw(further[:plots.MOST_CURVES], "further", "elements", "time"),
             "left_out": [s.key for s in further]}
@@ -165,7 +170,7 @@ def figures_of(site, case, index):
     main = plots.telling(point, quantities) if quantities else None
     out["quantity"] = main
     if index == 0 and quantities:
-        out["main"] = question_of(site, point, main, name)
+        out["main"] = question_of(site, case, point, main, name)
     elif quantities and (index < MOST_POINTS or point.others):
         shown, _ = plots.leading(point, main)
         out["main"] = {**NOTHING, "elements": plots.errors_figure(
@@ -243,6 +248,7 @@ def parts_of(site, case, index):
     figures = figures_of(site, case, index)
     main = figures["quantity"] or (names[0] if names else None)
     return {
+        "price": answers.price_of(point), "reference": next(iter(truths_of(point, main)), None) if main else None,
         "point": point, "figures": figures, "quantity":
             main, "table": table_of(point, main) if main else [],
         "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest":

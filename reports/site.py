@@ -147,9 +147,9 @@ class Site:
         marker is selected by keyboard, a tooltip shows the title, the formulation and the row of the marker.
 
         `key` is the formulation. `columns` are the names of the entries of a row; `error` is shown in percent and
-        `time [s]` in a suitable unit. `rows` contains a row of numbers, strings or None for each drawn marker, in the
+        `time [s]` and `cost [s]` in a suitable unit. `rows` contains a row of numbers, strings or None for each drawn marker, in the
         order of the markers."""
-        digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
+        digits = [{"error": 3, "time [s]": 4, "cost [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
                           "r": [[svg.plain(v, d) for v, d in zip(row, digits)]
                                 for row in rows]})

@@ -18,7 +18,7 @@ const said = (name, value) => {
   if (value === null) return "\u2013";
   if (typeof value == "string") return value;
   if (name == "error") return short(100 * value, 2) + " %";
-  return name == "time [s]" ? seconds(value) : short(value, 8);
+  return name == "time [s]" || name == "cost [s]" ? seconds(value) : short(value, 8);
 };
 
 // {formulation: true if the reader shows it, false if hidden}, stored for the session of the window.
@@ -159,7 +159,7 @@ class Figure {
     const table = make("table", "", box);
     c.forEach((name, k) => {
       const row = make("tr", "", table);
-      make("td", name == "time [s]" ? "time" : name.replace(" [1]", ""), row);
+      make("td", name == "time [s]" || name == "cost [s]" ? name.slice(0, 4) : name.replace(" [1]", ""), row);
       make("td", said(name, r[i][k]), row);
     });
     box.hidden = false;

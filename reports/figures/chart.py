@@ -141,6 +141,12 @@ class Panel:
 
     below = None
 
+    def edge(self, x):
+        """Draws a vertical line at x, behind all curves."""
+        self.edges = [*self.edges, x]
+
+    edges = ()
+
     def note(self, x, y, words):
         self.words.append((x, y, words))
 
@@ -251,6 +257,9 @@ class Writer:
             f"M{number(x)} {bottom}v4" for x, _ in xs) + "".join(
                 f"M{left} {number(y)}h-4" for y, _ in ys)
         out.append(f'<path stroke="{INK}" stroke-opacity=".12" stroke-width=".6" d="{grid}"/>')
+        for x in panel.edges:
+            out.append(f'<path stroke="{INK}" stroke-opacity=".35" stroke-dasharray="2 2" '
+                       f'd="M{number(float(across(x)))} {top}V{bottom}"/>')
         out.append(self.lines((points(x, y), look) for x, y, look in panel.back))
         for y, words in panel.lows:
             at = number(float(up(y)))
@@ -331,7 +340,7 @@ class Writer:
         height = top + step[1] * (rows - 1) + chart.size[1] + 40
         entries, more = self.legend(height + 14, left, step[0], width)
         height += more + 16
-        off = escape(" ".join(style.extra(self.keys)))
+        off = escape(" ".join(style.extra(key for key in self.keys if " " not in key)))  # not other programs
         markup = (f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
                   f'height="{height:.0f}" fill="{INK}" data-off="{off}" font-family="{FONT}" '
                   f'font-size="11" stroke-width="{WIDTH}" stroke-linejoin="round">'

@@ -1,17 +1,18 @@
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from reports import answers, data, verdicts
 from reports.figures import style
-from reports.figures.chart import Chart
+from reports.figures.chart import Axis, Chart, whole_ticks
 
 FLOOR = 1e-13
 NEARLY = 1e-10  # smaller errors are treated as zero
 CEILING = 1e3  # larger errors are drawn at this value
 MOST_CURVES = style.MOST
-OPEN = "open: below the reference value's own digits"
+OPEN = "open: below the reference's digits"
 
 
 def log_axis(axis, whole=False):
@@ -58,8 +59,9 @@ def work_of(point):
 
 
 def against(point, name):
+    price = answers.price_of(point)
     return {"elements": ("elements per member", lambda m: m.n, True),
-            "time": ("time [ms]: set-up and solution", lambda m: 1e3 * m.seconds, False),
+            "time": (price.words, lambda m: 1e3 * price.of(m), False),
             "unknowns": ("unknowns", lambda m: m.free, True),
             "work": (*work_of(point), True)}[name]
 
@@ -82,8 +84,8 @@ def digits_of(point, quantity):
     return least if least > FLOOR else None
 
 
-def leading(point, quantity):
-    """Returns (at most MOST_CURVES series to draw, other series). Uncorrected misprints and options are omitted first,
+def leading(point, quantity, most=MOST_CURVES):
+    """Returns (at most `most` series to draw, other series). Uncorrected misprints and options are omitted first,
     except options on the front of time and error. The least accurate series are omitted next."""
     drawn = [s for s in point.series if finite(s, quantity)]
     front = {s.key for s, _ in answers.front(point, quantity)}
@@ -95,7 +97,7 @@ def leading(point, quantity):
 
     order = sorted(drawn, key=rank)
     plain = [s for s in order if not any(rank(s)[:2])]
-    first = {s.key for s in (plain or order)[:MOST_CURVES]}
+    first = {s.key for s in (plain or order)[:most]}
     return [s for s in drawn if s.key in first], [s for s in drawn if s.key not in first]
 
 
@@ -113,15 +115,26 @@ def telling(point, quantities):
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
-    columns = ("elements", f"value [{unit}]" if unit else "value", "error", "time [s]", "unknowns",
-               "verdict")
+    price = answers.price_of(point)
+    columns = ("n", f"value [{unit}]" if unit else "value", "error", f"{price.name} [s]", "unknowns",
+               "order", "verdict")
     rows = [(m.n, m.values.get(quantity), float(f"{getattr(m, errors)[quantity]:.3g}"),
-             float(f"{m.seconds:.3g}"), m.free, v.verdict if v else None) for m in meshes]
+             float(f"{price.of(m):.3g}"), m.free, order_of(v), v.verdict if v else None) for m in meshes]
     title = quantity if errors == "errors" else f"{quantity}, model error"
     return site.points(series.key, columns, rows, title)
 
 
-def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, **look):
+def short_label(series):
+    """Returns the name of a series with its marks, and an asterisk if it belongs to another model."""
+    return f"{series.key}{f' ({series.marks})' if series.marks else ''}{' *' if series.other else ''}"
+
+
+def order_of(v):
+    """Returns the observed order of convergence of a verdict, rounded, or None."""
+    return float(f"{v.order:.2g}") if v and math.isfinite(v.order) else None
+
+
+def draw_series(site, panel, point, series, quantity, where, errors="errors", told=True, short=False, orders=False, **look):
     """Draws the curve of a formulation. Markers below the uncertainty of the reference value are hollow and are drawn at
     this uncertainty, on the grey background. If `told` is True, the markers have tooltips with their values."""
     digits = digits_of(point, quantity) if errors == "errors" else None
@@ -139,7 +152,9 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
         return {**(marks_of(site, point, series, quantity, meshes, errors) if told else
                    site.styles.of(series.key)), **other, **look}
 
-    panel.plot(x, y, label=series.label, marks=known, **own(known))
+    order = order_of(answers.verdict_of(series, quantity)) if orders else None
+    label = f"{short_label(series)}, order {order:g}" if order else short_label(series) if short else series.label
+    panel.plot(x, y, label=label, marks=known, **own(known))
     if lost:
         panel.plot([x[i] for i in lost], [y[i] for i in lost],
                    **own(lost) | {"linestyle": "none", "hollow": True})
@@ -176,10 +191,25 @@ def draw_failures(site, panel, shown, quantity, where):
                 panel.cross(where(mesh), look["color"], look["gid"])
 
 
-def front_line(point, quantity):
-    least = digits_of(point, quantity) or FLOOR
-    best = [(1e3 * m.seconds, max(clipped(m.errors[quantity]), least))
-            for _, m in answers.front(point, quantity)]
+@dataclass(frozen=True)
+class Beside:
+    """The curve of another program, next to those of formulations. `points` are [(run time or cost [s], error, row of the
+    tooltip)], `columns` are the names of the entries of a row."""
+    name: str
+    points: list
+    columns: tuple
+    look: dict
+
+
+def front_line(point, quantity, beside=()):
+    """Returns the corners of the Pareto front of the formulations and the other programs."""
+    least, price = digits_of(point, quantity) or FLOOR, answers.price_of(point).of
+    own = [(1e3 * price(m), max(clipped(m.errors[quantity]), least)) for _, m in answers.front(point, quantity)]
+    theirs = [(1e3 * t, max(clipped(e), least)) for one in beside for t, e, _ in one.points]
+    best = []
+    for time, error in sorted(own + theirs):
+        if not best or error < best[-1][1]:
+            best.append((time, error))
     corners = [(b[0], a[1]) for a, b in zip(best, best[1:])]
     return [p for pair in zip(best, corners + [None]) for p in pair if p]
 
@@ -189,7 +219,67 @@ TWO = (400, 260)  # size of the axes of each of two panels side by side [pixels]
 SMALL = (250, 150)  # size of the axes of one of many panels [pixels]
 
 
-def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
+class Limits(Axis):
+    """The axis of the numbers of elements, with a strip for the extrapolated limits behind the finest mesh."""
+
+    def __init__(self, finest, count):
+        super().__init__(True, True)
+        self.finest, self.end = finest, finest * 2.6
+        self.places = [finest * (1.7 + 1.8 * i / max(1, count - 1)) for i in range(count)]
+
+    def ticks(self):
+        return [(t, f"{t:g}") for t in whole_ticks(self.low, self.finest * 1.01)] + [(self.end, "∞")]
+
+
+def limit_error(point, series, quantity):
+    """Returns (magnitude of the error of the extrapolated limit, relative uncertainty of the limit, verdict), or None."""
+    v = answers.verdict_of(series, quantity)
+    if v is None or series.missing or not math.isfinite(v.limit) or not math.isfinite(v.error):
+        return None
+    unknown = v.limit_uncertainty / abs(v.truth) if v.truth and math.isfinite(v.limit_uncertainty) else 0
+    return abs(v.error), unknown, v
+
+
+def draw_limits(site, panel, point, quantity, series, at):
+    """Draws the extrapolated limit of a formulation with its uncertainty."""
+    found = limit_error(point, series, quantity)
+    if found is None:
+        return
+    error, unknown, v = found
+    least = digits_of(point, quantity) or FLOOR
+    low, high, y = (min(max(e, least), CEILING) for e in (error - unknown, error + unknown, error))
+    unit = point.units.get(quantity, "")
+    told = site.points(series.key, (f"limit [{unit}]" if unit else "limit", "uncertainty", "error", "order", "verdict"),
+                       [(v.limit, v.limit_uncertainty, float(f"{v.error:.3g}"), order_of(v), v.verdict)],
+                       f"{quantity}, limit as n → ∞")
+    if high > low:
+        panel.plot([at, at], [low, high], back=True, color=told["color"], gid=site.styles.of(series.key)["gid"],
+                   linewidth=5, alpha=0.35)
+    panel.plot([at], [y], **told, hollow=error < least)
+
+
+def convergence_figure(site, point, quantity, shown, name):
+    """Draws the error against the number of elements, and the extrapolated limits with their uncertainties. Returns None
+    if no series has an error."""
+    drawn = [s for s in shown if finite(s, quantity)]
+    if not drawn and not any(finite(s, quantity) for s in point.others):
+        return None
+    chart = Chart(1, ONE)
+    panel = chart.panel(xlabel="n: elements per member; ∞: extrapolated limit", ylabel=f"relative error of {quantity}",
+                        whole=True)
+    known = [s for s in drawn if limit_error(point, s, quantity)]
+    finest = max(m.n for s in [*drawn, *point.others] for m in s.meshes)
+    if known:
+        panel.x = Limits(finest, len(known))
+        panel.edge(finest * 1.3)
+    draw_errors(site, panel, point, quantity, drawn, "elements", True, short=True, orders=True)
+    for at, series in zip(panel.x.places if known else (), known):
+        draw_limits(site, panel, point, quantity, series, at)
+    draw_failures(site, panel, drawn, quantity, lambda m: m.n)
+    return chart.image(site, name)
+
+
+def errors_figure(site, point, quantity, shown, abscissae, name, told=True, beside=(), short=False):
     """Draws the error of one quantity against elements, time, unknowns or work, with a panel for each of the given
     abscissae. Returns None if no series has an error. If `told` is True, the markers have tooltips with their
     values."""
@@ -202,17 +292,22 @@ def errors_figure(site, point, quantity, shown, abscissae, name, told=True):
         panel = chart.panel(xlabel=label, ylabel="" if first else f"relative error of {quantity}",
                             whole=whole, like=first)
         first = first or panel
-        draw_errors(site, panel, point, quantity, shown, abscissa, told)
+        draw_errors(site, panel, point, quantity, shown, abscissa, told, beside, short)
         draw_failures(site, panel, shown, quantity, where)
     return chart.image(site, name)
 
 
-def draw_errors(site, panel, point, quantity, shown, abscissa, told):
+def draw_errors(site, panel, point, quantity, shown, abscissa, told, beside=(), short=False, orders=False):
+    """If `short` is True, the legend contains short names. If `orders` is True, the legend contains the observed orders of convergence."""
     _, where, _ = against(point, abscissa)
     if abscissa == "time":
-        draw_times(site, panel, point, shown, quantity)
+        draw_times(site, panel, point, shown, quantity, beside)
     for series in shown:
-        draw_series(site, panel, point, series, quantity, where, told=told)
+        draw_series(site, panel, point, series, quantity, where, told=told, short=short, orders=orders)
+    for one in beside:
+        look = site.points(one.name, one.columns, [row for _, _, row in one.points], quantity)
+        panel.plot([1e3 * t for t, _, _ in one.points], [max(clipped(e), FLOOR) for _, e, _ in one.points], label=one.name,
+                   **{**one.look, "gid": look["gid"]})
     for i, series in enumerate(point.others):
         pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]
         if pairs:  # some data are unknown for other programs
@@ -222,19 +317,20 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
         slope_triangle(panel, shown, quantity)
     tolerance = tolerance_of(point, quantity)
     if tolerance:
-        panel.level(tolerance, "tolerance")
+        panel.level(tolerance, f"tolerance {100 * tolerance:.3g} %")
 
 
-def draw_times(site, panel, point, shown, quantity):
+def draw_times(site, panel, point, shown, quantity, beside=()):
     """Draws the front of the best results, and the interval of times of each mesh over its rounds."""
-    line = front_line(point, quantity)
+    line = front_line(point, quantity, beside)
+    least = digits_of(point, quantity) or FLOOR
     panel.plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor",
                linewidth=5, alpha=0.15)
     for series in shown:
         look = site.styles.of(series.key)
         for m, e in finite(series, quantity):
             if m.clock.most > 1.02 * m.clock.least:
-                panel.plot([1e3 * m.clock.least, 1e3 * m.clock.most], [e, e], back=True,
+                panel.plot([1e3 * m.clock.least, 1e3 * m.clock.most], 2 * [max(e, least)], back=True,
                            color=look["color"], gid=look["gid"], linewidth=3, alpha=0.35)
 
 

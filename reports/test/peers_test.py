@@ -4,9 +4,11 @@ import json
 import math
 import pathlib
 import tempfile
+import types
 import unittest
+import unittest.mock
 
-from reports import peers, peers_data
+from reports import data, peers, peers_data
 
 
 def run(n, error, time, **more):
@@ -32,6 +34,30 @@ def two():
     fast = series("P, x", [run(1, 1e-3, 0.5), run(2, 1e-5, 1.0)])
     ours = series("a", [run(1, 1e-3, 1.0), run(2, 1e-5, 2.0)], True)
     return [record("first", ours, slow), record("second", ours, fast)]
+
+
+class Beside(unittest.TestCase):
+    """Other programs in the figure of error against run time."""
+
+    def setUp(self):
+        mesh = data.Mesh(1, "ok", "", data.Clock(0, 1, 1, 1, 1), 8, 4, "", {}, cost=3e-3)
+        self.point = data.Point("default", "", [data.Series("a", "", "", "", [mesh], [])], {})
+        self.site = types.SimpleNamespace(peers=(), styles=None)
+
+    def of(self, *records, name="u", case="first"):
+        with unittest.mock.patch.object(peers, "found", lambda site: list(records)):
+            return peers.beside(self.site, types.SimpleNamespace(name=case), self.point, name)
+
+    def test_times_are_converted(self):
+        """The run of the unit takes 1 in the record and costs 3 ms in the results."""
+        one, = self.of(*two())
+        self.assertEqual((one.name, [(t, e, row[0]) for t, e, row in one.points]), ("P, x", [(6e-3, 1e-3, 1), (12e-3, 1e-5, 2)]))
+
+    def test_nothing_to_compare(self):
+        self.assertEqual(self.of(*two(), name="v"), [])
+        self.assertEqual(self.of(*two(), case="third"), [])
+        self.assertEqual(self.of({**two()[0], "parameters": "x=1"}), [])
+        self.assertEqual(self.of({**two()[0], "unit": {"name": "b", "ours": True, "elements": 1}}), [])
 
 
 class Data(unittest.TestCase):

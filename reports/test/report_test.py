@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 from harness.tools.kit.program import ProgramTest, TRUTHS, drawn, report, run
 from harness.tools.kit.scenes import LEAF
-from reports import case, data, film, shapes
+from reports import answers, case, data, film, shapes
 from reports.figures import paper, plots
 from reports.figures.plots import MOST_CURVES, OPEN
 from reports.figures.style import Styles
@@ -294,6 +294,52 @@ class Figures(unittest.TestCase):
         image = plots.errors_figure(Site(), own, "u", own.series, ("elements",), "f")
         self.assertNotIn(OPEN, html.unescape(image.markup))
 
+    def priced(self, own, repeats=1):
+        for m in (m for s in own.series for m in s.meshes):
+            m.cost, m.clock.repeats = 5e-3 * m.n, repeats
+        return own
+
+    def test_run_time_of_rounds_or_cost(self):
+        """Times of single runs are never compared: the cost is drawn, under its name."""
+        own = point(series("beamw", (1e-2, 1e-4)))
+        for found, name, of, words in (
+                (own, "time", 1e-3, "run time [ms] of one run"), (self.priced(own), "cost", 5e-3, "cost [ms]: counted work"),
+                (self.priced(own, 7), "time", 1e-3, "run time [ms], fastest of 7 rounds")):
+            price = answers.price_of(found)
+            self.assertEqual((price.name, price.of(found.series[0].meshes[0])), (name, of))
+            self.assertIn(words, price.words)
+            site = Site()
+            image = plots.errors_figure(site, found, "u", found.series, ("time",), "f")
+            self.assertIn(words, html.unescape(image.markup))
+            self.assertIn(f'"{name} [s]"', image.points)
+            for column in ("n", "order", "verdict"):
+                self.assertIn(f'"{column}"', image.points)
+
+    def test_front_with_other_programs(self):
+        own = self.priced(point(series("beamw", (1e-2, 1e-4))))
+        fast = plots.Beside("P, x", [(1e-3, 1e-3, (1, 1e-3))], ("n", "error"), {"color": "#000000", "marker": "o", "gid": "f|P, x"})
+        self.assertEqual(plots.front_line(own, "u"), [(5.0, 1e-2), (10.0, 1e-2), (10.0, 1e-4)])
+        self.assertEqual(plots.front_line(own, "u", [fast]), [(1.0, 1e-3), (10.0, 1e-3), (10.0, 1e-4)])
+        image = plots.errors_figure(Site(), own, "u", own.series, ("time",), "f", beside=[fast])
+        self.assertIn('data-f="P, x"', image.markup)
+        self.assertIn('data-off=""', image.markup)
+
+    def test_limits_beside_the_meshes(self):
+        """The extrapolated limit has a mark with its error, and a bar over its uncertainty."""
+        own = point(series("beamw", (1e-2, 1e-4)), series("beamw_first", (1e-1, 1e-2)))
+        found = own.series[0].verdicts[0]
+        found.limit, found.limit_uncertainty, found.error, found.order = 2.0002, 1e-4, 1e-4, 2.04
+        self.assertEqual(plots.limit_error(own, own.series[0], "u")[:2], (1e-4, 5e-5))
+        self.assertIsNone(plots.limit_error(own, own.series[1], "u"))
+        image = plots.convergence_figure(Site(), own, "u", own.series, "f")
+        for words in (">∞</text>", "beamw, order 2", ">beamw_first</text>", "tolerance 0.1 %"):
+            self.assertIn(words, image.markup)
+        self.assertIn('"limit [m]","uncertainty","error","order","verdict"', image.points)
+        bar, = re.findall(r'points="([^"]*)" stroke="[^"]*" stroke-opacity="0.35" stroke-width="5"', image.markup)
+        (x, low), (x_high, high) = (map(float, p.split(",")) for p in bar.split())
+        self.assertEqual(x, x_high)
+        self.assertGreater(low, high)
+
     def test_eight_at_most(self):
         names = [f"f{i}" for i in range(7)]
         own = point(*[series(key, (1e-2, 1e-4)) for key in names],
@@ -359,10 +405,17 @@ class Pages(ProgramTest):
         cls.pages = {c.name: (folder / "site" / f"{c.name}.html").read_text(encoding="utf-8")
                      for c in cls.cases}
 
-    def test_the_scene_is_first(self):
+    def test_order_of_the_parts(self):
+        """Error against run time is the first picture."""
         for name, page in self.pages.items():
-            self.assertLess(page.index(f'id="{name}_scene"'), page.index("<h2>Quantities"))
-            self.assertLess(page.index("<h2>Quantities"), page.index("Which formulation?"))
+            parts = ("<h2>Error against run time", f'id="{name}_default_time"', "<h2>Mesh convergence",
+                     f'id="{name}_default_elements"', f'id="{name}_scene"', "<h2>Quantities")
+            places = [page.index(part) for part in parts if part in page]
+            self.assertEqual(places, sorted(places), name)
+            self.assertIn(parts[4], page)
+            if "judged quantities" in page:
+                self.assertEqual(len(places), len(parts), name)
+                self.assertGreater(page.index("<svg"), places[0])
 
     def test_every_quantity_is_explained(self):
         for one in self.cases:
