@@ -186,7 +186,7 @@ def differ(a, b):
 
 
 @dataclass(frozen=True)
-class Price:
+class Measure:
     """What a run costs at a parameter point. `name` is "time", or "cost" if there are no times of several rounds, because
     times of single runs scatter too much for comparisons."""
     name: str
@@ -200,24 +200,24 @@ class Price:
         return f"run time [ms], fastest of {self.rounds} rounds" if self.rounds > 1 else "run time [ms] of one run"
 
 
-def price_of(point):
+def measure_of(point):
     meshes = [m for s in point.series for m in s.meshes]
     rounds = [m.clock.repeats for m in meshes if m.clock.repeats > 1]
     if rounds:
-        return Price("time", lambda m: m.seconds if m.clock.repeats > 1 else math.nan, min(rounds))
+        return Measure("time", lambda m: m.seconds if m.clock.repeats > 1 else math.nan, min(rounds))
     if any(math.isfinite(m.cost) for m in meshes):
-        return Price("cost", lambda m: m.cost)
-    return Price("time", lambda m: m.seconds, 1)
+        return Measure("cost", lambda m: m.cost)
+    return Measure("time", lambda m: m.seconds, 1)
 
 
 def front(point, quantity):
-    """Returns [(series, mesh)] of the Pareto front of error and run time, or cost (price_of)."""
-    price = price_of(point).of
+    """Returns [(series, mesh)] of the Pareto front of error and run time, or cost (measure_of)."""
+    measure = measure_of(point).of
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
-             if math.isfinite(m.errors.get(quantity, math.nan)) and math.isfinite(price(m))]
+             if math.isfinite(m.errors.get(quantity, math.nan)) and math.isfinite(measure(m))]
     best, out = math.inf, []
-    for series, mesh in sorted(cells, key=lambda c: (price(c[1]), abs(c[1].errors[quantity]))):
+    for series, mesh in sorted(cells, key=lambda c: (measure(c[1]), abs(c[1].errors[quantity]))):
         if abs(mesh.errors[quantity]) < best:
             best = abs(mesh.errors[quantity])
             out.append((series, mesh))

@@ -150,7 +150,7 @@ def question_of(site, case, point, quantity, name):
     return {"elements": plots.convergence_figure(site, point, quantity, shown, f"{name}_elements"),
             "time": plots.errors_figure(site, point, quantity, shown, ("time",), f"{name}_time", beside=beside, short=True),
             "starred": any(s.other for s in shown),
-            "untimed": [s.key for s in shown if not any(math.isfinite(answers.price_of(point).of(m)) for m in s.meshes)],
+            "untimed": [s.key for s in shown if not any(math.isfinite(answers.measure_of(point).of(m)) for m in s.meshes)],
             "beside": [one.name for one in beside],
             "work": draw(shown, "work", "unknowns", "work"),
             "further": draw(further[:plots.MOST_CURVES], "further", "elements", "time"),
@@ -248,7 +248,7 @@ def parts_of(site, case, index):
     figures = figures_of(site, case, index)
     main = figures["quantity"] or (names[0] if names else None)
     return {
-        "price": answers.price_of(point), "reference": next(iter(truths_of(point, main)), None) if main else None,
+        "measure": answers.measure_of(point), "reference": next(iter(truths_of(point, main)), None) if main else None,
         "point": point, "figures": figures, "quantity":
             main, "table": table_of(point, main) if main else [],
         "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest":

@@ -84,10 +84,10 @@ MOST_BESIDE = 5  # number of programs in the figure of error against run time
 def scale_of(point, record, quantity):
     """Returns the factor from times of a record to those, or costs, of a point: both contain the run of beamwork that is
     the unit of the record. Returns NaN if the point does not contain this run."""
-    unit, price = record["unit"], answers.price_of(point).of
+    unit, measure = record["unit"], answers.measure_of(point).of
     runs = [run for s in record["series"] if s["ours"] and s["name"] == unit["name"] for run in s["runs"]
             if run["elements"] == unit["elements"]]
-    own = [price(m) for s in point.series if s.key == unit["name"] for m in s.meshes if m.n == unit["elements"]]
+    own = [measure(m) for s in point.series if s.key == unit["name"] for m in s.meshes if m.n == unit["elements"]]
     return own[0] / ranking.time_of(runs[0], quantity["analysis"]) if runs and own else math.nan
 
 
@@ -100,7 +100,7 @@ def beside(site, case, point, name):
         return []
     theirs = [c for c in telling(peers_data.curves(record, quantity)) if not c[0]["ours"]][:MOST_BESIDE]
     programs = [s["name"] for s in record["series"] if not s["ours"]]
-    words = "time [s]" if answers.price_of(point).name == "time" else "cost [s]"
+    words = "time [s]" if answers.measure_of(point).name == "time" else "cost [s]"
     return [plots.Beside(series["name"], [(t * scale, e, (run["elements"], e, float(f"{t * scale:.3g}"), run["unknowns"],
                                                           "recorded, converted to this axis")) for t, e, run in points],
                          ("n", "error", words, "unknowns", "time"), look_of(site, series, programs))

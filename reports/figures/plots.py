@@ -59,9 +59,9 @@ def work_of(point):
 
 
 def against(point, name):
-    price = answers.price_of(point)
+    measure = answers.measure_of(point)
     return {"elements": ("elements per member", lambda m: m.n, True),
-            "time": (price.words, lambda m: 1e3 * price.of(m), False),
+            "time": (measure.words, lambda m: 1e3 * measure.of(m), False),
             "unknowns": ("unknowns", lambda m: m.free, True),
             "work": (*work_of(point), True)}[name]
 
@@ -115,11 +115,11 @@ def telling(point, quantities):
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
     v = answers.verdict_of(series, quantity)
     unit = point.units.get(quantity, "")
-    price = answers.price_of(point)
-    columns = ("n", f"value [{unit}]" if unit else "value", "error", f"{price.name} [s]", "unknowns",
+    measure = answers.measure_of(point)
+    columns = ("n", f"value [{unit}]" if unit else "value", "error", f"{measure.name} [s]", "unknowns",
                "order", "verdict")
     rows = [(m.n, m.values.get(quantity), float(f"{getattr(m, errors)[quantity]:.3g}"),
-             float(f"{price.of(m):.3g}"), m.free, order_of(v), v.verdict if v else None) for m in meshes]
+             float(f"{measure.of(m):.3g}"), m.free, order_of(v), v.verdict if v else None) for m in meshes]
     title = quantity if errors == "errors" else f"{quantity}, model error"
     return site.points(series.key, columns, rows, title)
 
@@ -203,8 +203,8 @@ class Beside:
 
 def front_line(point, quantity, beside=()):
     """Returns the corners of the Pareto front of the formulations and the other programs."""
-    least, price = digits_of(point, quantity) or FLOOR, answers.price_of(point).of
-    own = [(1e3 * price(m), max(clipped(m.errors[quantity]), least)) for _, m in answers.front(point, quantity)]
+    least, measure = digits_of(point, quantity) or FLOOR, answers.measure_of(point).of
+    own = [(1e3 * measure(m), max(clipped(m.errors[quantity]), least)) for _, m in answers.front(point, quantity)]
     theirs = [(1e3 * t, max(clipped(e), least)) for one in beside for t, e, _ in one.points]
     best = []
     for time, error in sorted(own + theirs):

@@ -301,13 +301,14 @@ class Figures(unittest.TestCase):
 
     def test_run_time_of_rounds_or_cost(self):
         """Times of single runs are never compared: the cost is drawn, under its name."""
-        own = point(series("beamw", (1e-2, 1e-4)))
+        def own():
+            return point(series("beamw", (1e-2, 1e-4)))
         for found, name, of, words in (
-                (own, "time", 1e-3, "run time [ms] of one run"), (self.priced(own), "cost", 5e-3, "cost [ms]: counted work"),
-                (self.priced(own, 7), "time", 1e-3, "run time [ms], fastest of 7 rounds")):
-            price = answers.price_of(found)
-            self.assertEqual((price.name, price.of(found.series[0].meshes[0])), (name, of))
-            self.assertIn(words, price.words)
+                (own(), "time", 1e-3, "run time [ms] of one run"), (self.priced(own()), "cost", 5e-3, "cost [ms]: counted work"),
+                (self.priced(own(), 7), "time", 1e-3, "run time [ms], fastest of 7 rounds")):
+            measure = answers.measure_of(found)
+            self.assertEqual((measure.name, measure.of(found.series[0].meshes[0])), (name, of))
+            self.assertIn(words, measure.words)
             site = Site()
             image = plots.errors_figure(site, found, "u", found.series, ("time",), "f")
             self.assertIn(words, html.unescape(image.markup))
