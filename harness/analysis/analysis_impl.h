@@ -380,7 +380,7 @@ typedef struct vibration {
     int *row, *rows;
     double complex *column; /* [free + border + loops] rows and values of a column of D */
     matrix_factor *factor;
-    double *x; /* [2 (free + border + loops)] */
+    double *x; /* [2 (free + border + loops)] right-hand side, then solution, in real form */
     double complex *found,
         *left; /* [quantities x (all + loops)] solutions; [quantities x free] residuals */
     double complex *output,
@@ -466,7 +466,8 @@ struct harmonic_modes {
     double *U, *carried;       /* [damped x n] U, and [damped] ratio of U^T r to V^T K r */
     int *of;                   /* [damped] index of the mode with the damping ratio */
     double *Kp, *Mp, *Cp, *Bp; /* [count x count] V^T K V, V^T M V, V^T C V, V^T B V */
-    double *coupling[3];       /* [kept x kept] products of C with C, C with B, and B with B */
+    double *coupling[3]; /* [kept x kept] X^T (K^-1 - V V^T) Y for the modes V, where X, Y are C V,
+                            C V; C V, B V; and B V, B V (couple) */
     double complex *D,
         *entry; /* [count x count] scaled and factored D; entries of D in the order of v->first */
     double *scale; /* [count] */

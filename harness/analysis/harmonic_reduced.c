@@ -237,8 +237,7 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
     if (LAPACKE_zgetrf(LAPACK_ROW_MAJOR, kept, kept, m->inverse, kept, m->pivot) != 0 ||
         LAPACKE_zgetri(LAPACK_ROW_MAJOR, kept, m->inverse, kept, m->pivot) != 0)
         return INFINITY;
-    /* T^H T in the first half, then its product with the inverse, and the conjugate of this product
-     * */
+    /* G = T^H T; product = G D^-1, where D is D_m */
     double complex *G = m->half, *product = m->half + k2;
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++) {
@@ -247,14 +246,13 @@ static double coupled(vibration *v, harmonic_modes *m, double w)
             G[at] = conj(c) * c * m->coupling[0][at] + conj(c) * b * m->coupling[1][at] +
                     conj(b) * c * m->coupling[1][across] + conj(b) * b * m->coupling[2][at];
         }
-    /* tr(G D^-1 conj(G) D^-H) = sum of (G D^-1) . conj(D^-1 G^T) */
+    /* d^2 = tr(G D^-1 conj(G) D^-H), where conj(G) D^-H = conj(G D^-1) because D is symmetric */
     double complex sum = 0;
     memset(product, 0, k2 * sizeof *product);
     for (int i = 0; i < kept; i++)
         for (int k = 0; k < kept; k++)
             for (int j = 0; j < kept; j++)
                 product[i * kept + j] += G[i * kept + k] * m->inverse[k * kept + j];
-    /* D is symmetric, so conj(G) D^-H = conj(G D^-1) */
     for (int i = 0; i < kept; i++)
         for (int j = 0; j < kept; j++)
             sum += product[i * kept + j] * conj(product[j * kept + i]);

@@ -44,7 +44,8 @@ static int most_along(int vertices, const double *const u[2], const double direc
                       double part[2])
 {
     const double same = 1e-6;
-    double along[3] = {0}, all[3] = {0}; /* products 00, 01, 11 */
+    double along[3] = {0}, all[3] = {0}; /* scalar products of u[0] with itself, of u[0] with u[1],
+                                            and of u[1] with itself */
     for (int v = 0; v < vertices; v++)
         for (int k = 0; k < 3; k++) {
             const double *a = u[k == 2] + NODE_COORDINATES * v,

@@ -203,7 +203,7 @@ uint64_t parameters_hash(const case_type *c, const double value[], const int any
 
 /* Texts of the parameters of the previous point, which are reused. */
 typedef struct parameters_words {
-    int known; /* number of known texts; 0: none */
+    int known; /* number of parameters whose texts are known */
     double value[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS];
     char text[CASE_MAX_PARAMETERS][128];

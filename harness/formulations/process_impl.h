@@ -4,7 +4,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/formulations_impl.h"
 
-enum { PROCESS_KINDS = 65536 }; /* number of kinds; larger numbers are taken modulo this number */
+enum { PROCESS_KINDS = 65536 }; /* kinds that a process stores; numbers are sent modulo this */
 
 typedef struct process {
     element_type type;

@@ -101,7 +101,7 @@ struct model {
     division division;
     model_state *rest;
     int lines;
-    char **line; /* eliminated coordinates, omitted physics */
+    char **line; /* descriptions of eliminated coordinates and omitted physics */
 };
 _Static_assert(offsetof(struct model, mesh) == 0, "model_mesh_of finds it by the model's address");
 

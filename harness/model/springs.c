@@ -195,7 +195,7 @@ int turns_full(double size, double near)
 int turns_swung(const double from[3], const double to[3])
 {
     const double a = vec3_norm(from), b = vec3_norm(to);
-    const double most = turns_full(b, 1e-6) ? 0.9999 : 0.5; /* smallest cosine */
+    const double most = turns_full(b, 1e-6) ? 0.9999 : 0.5; /* smallest cosine of their angle */
     return !(fmax(a, b) < PI || fmin(a, b) < 1 || vec3_dot(from, to) > most * a * b);
 }
 

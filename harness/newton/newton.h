@@ -905,7 +905,8 @@ typedef struct model_linearisation {
 } model_linearisation;
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility, *along,
-        *memory; /* sigma = P'(e) + C incompatibility, where incompatibility = D(x) - e */
+        *memory; /* values of an element: J, C, sigma = P'(e) + C (D(x) - e), D(x) - e, the numbers
+                    from SLOT_TAKES on, and the memory of its type */
 } model_slot;
 static inline model_slot linearise_slot(const model *m, const linear_memory *memory, int element)
 {

@@ -335,7 +335,7 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
 }
 
 typedef struct correction_sizes {
-    double last, first, largest; /* largest: the largest correction after the first correction */
+    double last, first, largest; /* largest: largest correction after the first one */
     int growing;                 /* number of successive growing corrections */
 } correction_sizes;
 

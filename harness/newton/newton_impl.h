@@ -459,12 +459,13 @@ struct condensation {
 /* Springs about the undeformed state, like linear_stresses for elements. sigma[6 x springs] is the
  * last part of the stresses. */
 
-void linear_springs_stiffness(const model *, sparse *K); /* += */
+void linear_springs_stiffness(const model *, sparse *K); /* adds to K */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);
-void linear_springs_forces(const model *, const double sigma[], double f[]); /* += */
+void linear_springs_forces(const model *, const double sigma[], double f[]); /* adds to f */
 /* Adds the forces of springs on a node's frame to F[6]. */
 void linear_springs_node_force(const model *, const double sigma[], int node, double F[6]);
-void linear_springs_geometric_stiffness(const model *, const double sigma[], sparse *G); /* += */
+void linear_springs_geometric_stiffness(const model *, const double sigma[],
+                                        sparse *G); /* adds to G */
 double linear_springs_energy2(const model *, const double x[]);
 double linear_springs_rounding(const model *, const double x[]);
 double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
