@@ -42,7 +42,8 @@ def curve(series, quantity):
 
 
 def draw(point, path, quantity=None, only=None):
-    """Returns a figure of the error against the cost of the counted work, or None if no mesh has an error."""
+    """Draws the error against the cost of the counted work into a file. Returns its path, or None if no mesh has an
+    error."""
     judged = [v.quantity for s in point.series for v in s.verdicts if math.isfinite(v.error)]
     quantity = quantity or (judged[0] if judged else None)
     shown = [(s.key, curve(s, quantity)) for s in point.series

@@ -331,7 +331,8 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
         near, other != NULL ? other : "; 'beamwork scene --schema' lists all keys", text);
 }
 
-/* Returns 1 if an invalid key of the map is probably a misspelt form of the missing key. */
+/* Returns 1 if the map contains a key of the kind ENTRY_LATER, or an unknown key that is probably a
+ * misspelt form of the missing key. */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {

@@ -23,8 +23,8 @@ static void check_version(const scene_file *file, mistakes *m)
                          "'beamwork: 1' must be the first key; move it to the top");
 }
 
-/* Returns the file name without its extension, with '_' instead of each character that a name
- * cannot contain. */
+/* Returns the file name up to its first point, with '_' instead of each character that a name
+ * cannot contain. A name that would be empty or start with a digit starts with "scene_". */
 static const char *name_of_file(scene_file *file)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"

@@ -79,7 +79,8 @@ char *write_scene_text(const scene *s, const write_head *head)
     return text;
 }
 
-/* Returns the number of components along the global axes: translations, and spatial rotations. */
+/* Returns the number of components for `hold` and `drive`: the translations and, if they are
+ * spatial, the rotations. */
 static int components_of(const scene_node *n)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;

@@ -70,7 +70,8 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* Returns i such that x is between points i and i + 1. */
+/* Returns i such that x is between points i and i + 1; beyond the table, the first or the last such
+ * i. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;

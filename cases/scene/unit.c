@@ -154,7 +154,8 @@ static void scale_steps(scene_analysis *a, double x)
     a->of.continuation.control.step_max *= x;
 }
 
-/* Returns 1 if the stations are lengths: for a continuation, or an analysis that follows one. */
+/* Returns 1 if the stations are lengths: for a continuation, or a compliance analysis that follows
+ * one. */
 static int stations_are_lengths(const scene *s, const scene_quantity *q)
 {
     if (q->analysis < 0 || q->analysis >= s->analyses)

@@ -356,7 +356,8 @@ static int has_image(const section_spec *spec, const double centroid[2], const i
     return 0;
 }
 
-/* Returns 1 if the section does not change when its y and z axes are multiplied by these signs. */
+/* Returns 1 if the section is known not to change when its y and z axes are multiplied by these
+ * signs. For signs other than 1, this is known only for rectangles and for sections with walls. */
 static int is_symmetric(const scene *s, int profile, const int sign[2])
 {
     section c;

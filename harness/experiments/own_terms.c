@@ -153,7 +153,7 @@ static void check_jacobian(const line_place *p, check_result *one)
     }
 }
 
-/* Checks H. */
+/* Checks H against finite differences of the nodal forces. */
 static void check_second(const line_place *p, check_result *one)
 {
     const test_element *s = p->at.s;

@@ -350,8 +350,8 @@ static int has_other(const tally *t)
     return others > 0;
 }
 
-/* Returns 1 if a field contains a point without a reference. parts 1: the field must also contain a
- * point with a reference. */
+/* Returns 1 if a field of the map contains a point without a reference and, with parts 1, also a
+ * point with a reference or, with parts 0, no such point. */
 static int has_unknown(const tally *t, int parts)
 {
     const parameter_ranges *r = t->of;

@@ -31,7 +31,7 @@ static int is_ours(const char *name)
            (sscanf(name, "point_%ld.yaml%n", &index, &end) == 1 && end > 0 && name[end] == '\0');
 }
 
-/* Returns 1 if the folder contains only files of an earlier sweep. */
+/* Returns 1 if the folder does not exist or contains only files of an earlier sweep. */
 static int is_former(const char *folder)
 {
     DIR *at = opendir(folder);

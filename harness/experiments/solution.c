@@ -124,8 +124,8 @@ static point_reference of_truth(const scene_quantity *q, const truth *t, rows_re
     return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
 }
 
-/* Returns 1 if the series a and b solve the same problem. Stability problems with different shear
- * theories are different problems. */
+/* Returns 1 if the limit of series b may be a reference for series a: b must solve the scene of a
+ * with all its physics and, unless a solves another model, with the shear theory of a. */
 static int same_physics(const sweep *s, int a, int b)
 {
     const series *one = &s->series[a], *other = &s->series[b];

@@ -219,7 +219,7 @@ status text_end(document_text *t, status written, char **out, fault *f)
 }
 
 /* Reads names that are separated by blanks. Text NULL: there are no names, and *count is 0. *named
- * (may be NULL): 1 if none of the names is "all". */
+ * (may be NULL): 1 if there are names and none is "all". */
 static status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
                                 int *named, fault *f)
 {

@@ -368,7 +368,8 @@ static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, 
     return outcome;
 }
 
-/* Copies a text attribute. *out is NULL if the attribute is missing. Returns 0 if out of memory. */
+/* Copies a text attribute. *out is NULL if the attribute is missing. Returns 0 if out of memory, or
+ * if the attribute is empty or cannot be read. */
 static int read_text(hid_t file, const char *name, char **out)
 {
     enum { MOST = 1 << 16 };

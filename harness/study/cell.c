@@ -314,9 +314,9 @@ static int agree(double coarse, double fine)
 }
 
 /* Solves on repeatedly doubled meshes until the changes on two meshes agree. The result is the
- * larger of these changes times omission_safety or, if the last change is many_times omission_most,
- * the last change. If a further solution would take longer than `brief`, one change of this size is
- * sufficient. */
+ * larger of these changes times omission_safety or, if the last change exceeds many_times
+ * omission_most, the last change. If a further solution would take longer than `brief`, one change
+ * above this bound is sufficient. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

@@ -97,7 +97,7 @@ class Laboratory:
         return self.kept[what]
 
     def stand_in(self, case, parameters, quantity):
-        """Returns a limit of collocation whose uncertainty is below 1e-6, otherwise NaN."""
+        """Returns the limit of collocation if its relative uncertainty is at most 1e-6, otherwise NaN."""
         found, _ = self.series(case, EXACT, parameters, EXACT_MESHES)
         record = (found or {}).get(quantity)
         if not record or record["limit"] is None or record["limit_uncertainty"] is None:

@@ -118,8 +118,8 @@ def quantile(values, part):
 
 
 def pairs(cells, predicted):
-    """Returns the logarithms of the (predicted, measured) ratios of the times of two formulations in a case. The
-    predicted logarithms are not negative."""
+    """Returns the logarithms of the (predicted, measured) ratios of the times of two formulations in a case, for all
+    pairs with measured times within a factor NEAR. The predicted logarithms are positive."""
     groups, out = collections.defaultdict(list), []
     for i, cell in enumerate(cells):
         groups[cell["case"]].append(i)

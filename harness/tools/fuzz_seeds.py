@@ -1,7 +1,7 @@
-"""Writes the seeds of the fuzzing programs: reference tables, a stored run and the committed table.
+"""Writes the seeds of the fuzzing programs to a subfolder of FOLDER for each: scenes, calls of the library, imported
+results, parameters, words, formulas, commands, the committed table, reference values and a stored run.
 
-usage: fuzz_seeds.py PROGRAM FOLDER
-"""
+usage: fuzz_seeds.py PROGRAM FOLDER"""
 import csv
 import pathlib
 import shutil

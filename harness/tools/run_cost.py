@@ -67,7 +67,8 @@ def work_of(scene):
 
 
 def read(path):
-    """Returns [{case, name, times, elements, cost, seconds}] of all runs, both solved and failed."""
+    """Returns [{case, name, times, elements, cost, seconds}] of all runs, solved or failed, that have a cost and a
+    time."""
     out = []
     with h5py.File(path) as file:
         for case, group in file["cases"].items():
