@@ -164,10 +164,13 @@ class Against(MotionTest):
         return made
 
     def compare(self, found, want, bound):
+        """Errors are relative to the largest value of the same kind; a rotation, also to a translation over the length."""
         for key in found:
             alike = [k for k in want if len(k) == len(key) and k[:-1] == key[:-1]]
-            scale = max(abs(want[k]) for k in alike)
-            self.assertLess(abs(found[key] - want[key]) / scale, bound, key)
+            size = max(abs(want[k]) for k in alike)
+            if key[:-1] in ("r", "Vr"):
+                size = max([size, *(abs(want[key[:-2] + "u" + c]) / LENGTH for c in "xyz" if key[:-2] + "u" + c in want)])
+            self.assertLess(abs(found[key] - want[key]) / size, bound, key)
 
     def numbers(self, made):
         solution = self.ours(made)
