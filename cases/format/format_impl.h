@@ -311,8 +311,9 @@ typedef struct write_own {
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* Writes a map with the keys of an entry whose values differ from the defaults. `own` lists special
- * forms, also for maps inside the entry, or is NULL. */
+/* Writes a map with the keys of an entry that are required or always written, or whose values
+ * differ from the defaults. `own` lists special forms, also for maps inside the entry, or is
+ * NULL. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 void write_values_key(writer *w, const char *key);
 /* Writes a list of words in brackets, one for each bit. */

@@ -1049,7 +1049,7 @@ typedef struct scene_tie {
 status scene_ties(const scene *, scene_tie tie[], fault *);
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
-/* Returns 1 if the stiffness or the damping of the spring is unsymmetric. */
+/* Returns 1 if the stiffness of the spring is unsymmetric. */
 int scene_spring_circulates(const scene_spring *);
 int scene_spring_gyrates(const scene_spring *);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],

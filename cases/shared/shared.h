@@ -105,8 +105,8 @@ void sheet_section(double width, double thickness, double young, double poisson,
  * remains free. Sets *root and *tip. Rejects a tip deflection that is too large for the length. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
-/* Adds the compliance of the tip at the end of a static path, with its prescribed motion released.
- * The quantities C_<response>_<load> are the entries whose rows and columns are listed. */
+/* Adds quantities C_<response>_<load> of a compliance analysis: the entries whose rows and columns
+ * are listed. */
 void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
 /* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54). In the state of

@@ -208,7 +208,7 @@ typedef struct case_options {
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* If the name is a scene file (*.yaml), uses it as the value of --scene. If it is that of an
+/* If the name is a scene file (*.yaml, *.yml), uses it as the value of --scene. If it is that of an
  * example (cases/examples/NAME.yaml) and not of a built-in case, uses the file of the example. */
 void case_input_example(case_options *);
 /* Returns the case of the request, with its parameters; NULL: an error message has been printed. */
@@ -231,7 +231,8 @@ void case_input_report_units(const scene_file *, const double parameter[]);
 void case_input_report_analysis(const case_options *, const scene *s);
 
 /* Solves the case on the meshes (none: those of the case) with other programs, "NAME" or
- * "NAME:ELEMENT" separated by commas, and writes their results as an import to the file `to`. */
+ * "NAME:ELEMENT" separated by commas, and writes their results as an import to the file `to`.
+ * *found: 1 if they give values, otherwise 0. */
 status peers_solve(const case_options *, const case_type *, const mesh_list *, const char *peers,
                    const char *to, int *found, fault *f);
 

@@ -811,7 +811,8 @@ typedef struct tally_series {
 
 /* A field of the map: it covers a range of each axis. */
 typedef struct tally_place {
-    /* other: number of points where the formulation solves another model */
+    /* number of points in the field; where the formulation solves another model; with a reference;
+     * and, of the latter, where even the finest mesh is not within the tolerance */
     long points, other, requested, never;
     long proven; /* number of points of `requested` whose reference is a reference value */
     /* smallest number of elements such that this mesh and all finer meshes are within the tolerance

@@ -338,7 +338,8 @@ typedef struct known_truths {
     int borrowed;
 } known_truths;
 
-/* Finds the stored reference values of the point. FAULT: out of memory. */
+/* Finds the stored reference values of the point. If some are missing and the request has a program
+ * for this, also computes reference values. FAULT: out of memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);
 
@@ -507,8 +508,9 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
 typedef void test_elements_check(const test_element *s, check_results *c);
 void test_elements_each(const formulation *chosen, check_results *c, test_elements_check *check);
 
-/* Sets `formulations`, `meshes`, `quantities`, `left_out` and `point_cost` from the scenes of the
- * first point, the last point and some points between. REFUSED: the message gives the reason. */
+/* Sets `formulations`, `meshes`, `quantities`, `left_out`, `omitted`, `assumed` and `point_cost`
+ * from the scenes of the first point, the last point and some points between. REFUSED: the message
+ * gives the reason. */
 status survey(parameter_ranges *r, fault *f);
 
 /* Allocates the data for the batches of a sweep. FAULT: out of memory. ranges_work_free frees the

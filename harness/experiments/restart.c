@@ -96,7 +96,8 @@ status restart_begin(restart *r, solution_request *of, scene *s, fault *f)
 }
 
 /* Contents of the file: `scene` and `formulation` as text, `run` (elements, keep_all, ends), and
- * for each end its `numbers` and, in `value_K`, the settings of the motion. */
+ * for each end K of a motion `numbers_K`, the scalars of outcome_end, and `value_K`, its vector
+ * `value`. */
 
 static const char kind[] = "beamwork-motion-end-4";
 enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };

@@ -874,7 +874,7 @@ typedef struct default_choice {
 } default_choice;
 void default_choice_free(default_choice *);
 
-/* Finds the coarsest mesh on which all values differ by less than `requested` from those on the
+/* Finds the coarsest mesh on which all values differ by at most `requested` from those on the
  * previous mesh or, if there is none, the finest mesh that was tried. Solves all meshes up to this
  * one. request: the cell without the number of elements. */
 status default_choice_elements(const cell_request *, const formulation *chosen, double requested,

@@ -49,7 +49,7 @@ void table_value(FILE *to, int width, int digits, char conversion, double value)
  * formulation if shear and stability occur together. Lines that do not apply are omitted. */
 void table_omitted(FILE *to, const sweep_point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);
-/* Prints a line "case (parameters), formulation". */
+/* Prints a line "case (parameters), formulation", and the physics that the formulation omits. */
 void table_series(FILE *to, const sweep *s, int index);
 
 /* Prints the tables for the single point of a sweep. The rows are the meshes, the limit, its
