@@ -35,7 +35,8 @@ typedef enum limit_kind {
     LIMIT_CONVERGED,
     LIMIT_ASYMPTOTIC,  /* two observed orders agree: value(n) = limit + c n^-order */
     LIMIT_OSCILLATING, /* the last two changes differ in sign */
-    LIMIT_NOT_YET, /* the orders change from mesh to mesh, or there are fewer than three meshes */
+    LIMIT_NOT_YET, /* the orders change from mesh to mesh or are not plausible, or there are fewer
+                      than four meshes */
     LIMIT_KINDS
 } limit_kind;
 
@@ -1003,7 +1004,7 @@ extern const double reach_level[REACH_LEVELS];
 typedef struct reached {
     int series, mesh;
     /* [s] cost of the counted work; INFINITY: the formulation is not ranked by its work
-     * (reach_unranked), and is listed after all others */
+     * (reach_unranked), and is listed last among those with or without a defect */
     double cost;
     const verdict *defect; /* first verdict other than pass; NULL: all verdicts are pass */
 } reached;

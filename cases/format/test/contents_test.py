@@ -329,7 +329,7 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 
     def test_box_girder(self):
-        """Compares torsion of a closed section, with restrained warping, with Benscoter's theory."""
+        """The torsion of a closed section with restrained warping must be that of Benscoter's theory."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
         self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")

@@ -445,7 +445,8 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """With EA/l = 84000 N/mm, a force of 168 MN causes 2000 mm, the size of the structure."""
+        """With EA/l = 84000 N/mm, a force of 168 MN causes 2000 mm, the size of the structure. Only a larger force
+        must cause a warning."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)

@@ -225,7 +225,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(self.said("1e-3", given)["stands"])
 
     def test_covered(self):
-        """A limit is covered if it is within three times its uncertainty plus that of the prediction."""
+        """A limit must count as covered if it is within three times its uncertainty plus that of the prediction."""
         given = [{**verdict_of_bounds(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
                  for limit in (2.0, 2.0000029, 2.0000031, None)]
         self.assertEqual(bounds.covered(given + [verdict_of_bounds(0.1)]), (2, 3))

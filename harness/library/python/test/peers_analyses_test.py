@@ -131,7 +131,8 @@ class Supports(PeerTest):
 
 
     def test_driven_rotation(self):
-        """A clamp that turns by 1.2 rad must turn the beam by this angle, in any number of load steps."""
+        """A clamp that turns by 1.2 rad must turn the beam by this angle, in any number of load steps. The driver of
+        Kratos must refuse it."""
         for peer, name in peers.chosen(["exudyn:exact_2d", "opensees:elasticBeamColumn", "xara:exact_3", "kratos"]):
             with self.subTest(peer=peer, element=name):
                 made = cantilever({"path": {"static": {"stations": [1]}}})

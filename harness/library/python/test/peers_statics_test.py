@@ -75,7 +75,7 @@ class Walk(ModuleTest):
             self.follow([-1], truss)
 
     def test_again(self):
-        """Steps that failed are not tried again for the same mesh."""
+        """Steps that failed must not be tried again for the same mesh."""
         begun = []
 
         class Stiff(Truss):
