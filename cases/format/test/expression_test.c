@@ -279,7 +279,8 @@ static void check_bad_loops(void)
     }
 }
 
-/* At most MISTAKES_MOST errors are stored, sorted by position. Further errors are only counted. */
+/* At most MISTAKES_MOST errors must be stored, sorted by position. Further errors must only be
+ * counted. */
 static void check_many(void)
 {
     static mistakes m = {.file = "f"};

@@ -157,7 +157,8 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Runs every test with the path of its own file. Returns the exit status of the test program. */
+/* Runs every test with the path of the same temporary file. Returns the exit status of the test
+ * program. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";
