@@ -4,7 +4,7 @@ import functools
 import math
 from dataclasses import dataclass
 
-from reports import answers, data, peers
+from reports import agreed, answers, data, model, peers
 from reports.figures import plots
 from reports.answers import LEVELS
 from reports.structure_drawing import describe, draw, scene
@@ -161,8 +161,8 @@ def told_of(point, quantity):
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
-def figures_of(site, case, index):
-    point = case.points[index]
+def figures_of(site, case, index, point):
+    """`point` is agreed.ranked() of the point."""
     name = f"{case.name}_{point.name}"
     quantities = [q for q in answers.judged(point)
                   if any(plots.finite(s, q) for s in point.series)]
@@ -180,8 +180,8 @@ def figures_of(site, case, index):
     if others and index == 0:
         out["others"] = plots.small_multiples(site, point, others[:MOST_PANELS],
                                               f"{name}_others")
-    modelled = [q for q in point.units
-                if any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
+    taken = quantities if point is not case.points[index] else ()  # agreed limits are not another model
+    modelled = [q for q in point.units if q not in taken and any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
     if modelled and (index == 0 or point.others):
         out["model"] = plots.small_multiples(site, point, modelled, f"{name}_model",
                                              "model_errors", "model error", "elements")
@@ -241,19 +241,22 @@ def causes_of(point):
 
 def parts_of(site, case, index):
     point = case.points[index]
+    ranked = agreed.ranked(point)
     names = answers.judged(point)
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
              if m.clock.repeats > 1 and m.clock.least > 0]
     shown, cells = matrix(point)
-    figures = figures_of(site, case, index)
+    figures = figures_of(site, case, index, ranked)
     main = figures["quantity"] or (names[0] if names else None)
     return {
-        "measure": answers.measure_of(point), "reference": next(iter(truths_of(point, main)), None) if main else None,
+        "agreements": agreed.agreements(point), "without": agreed.without_any(point), "agreed": ranked is not point,
+        "curves": sorted({q for s in point.series for m in s.meshes for q in m.curves}),
+        "measure": answers.measure_of(point), "reference": next(iter(truths_of(ranked, main)), None) if main else None,
         "point": point, "figures": figures, "quantity":
-            main, "table": table_of(point, main) if main else [],
+            main, "table": table_of(ranked, main) if main else [],
         "limits": limits_of(point) if index == 0 or not names else [], "others": data.rows_beside(point), "cheapest":
-        cheapest_of(point),
-        "front": answers.front(point, main) if main else [], "failures":
+        cheapest_of(ranked),
+        "front": answers.front(ranked, main) if main else [], "failures":
             answers.failures(point), "savings": answers.savings(point), "noise": sorted(noise),
         "causes": causes_of(point), "shown": shown, "cells": cells,
         "verdicts": verdicts_of(point, index), "tally":
@@ -277,11 +280,21 @@ def page_of(case, index):
     return f"{case.name}.html#{point.name}"
 
 
+def parts_best(case):
+    """Returns the answers.Way of lowest cost to 1 % in all quantities at the default parameters, followed by the ways of
+    other formulations; without any, a series with a run."""
+    point = agreed.ranked(case.points[0])
+    found = answers.answer(point, answers.ALL, 0.01)
+    ways = found.best + found.dearer + found.unranked + found.defective if answers.judged(point) else []
+    return ways or [s for s in point.series if s.meshes and not s.missing]
+
+
 def signs_of(parts):
     return {cell.sign for part in parts for _, cells in part["cells"] for cell in cells}
 
 
 def write(site, case):
+    best = next((w.key for w in parts_best(case)), None)
     sections = [found for section in site.sections for found in section(site, case)]
     parts = [parts_of(site, case, i) for i in range(len(case.points))]
     at = site.cases.index(case)
@@ -298,6 +311,8 @@ def write(site, case):
                further=[] if apart else parts[1:],
                signs=signs_of(parts[:1] if apart else parts),
                places=[(part, page_of(case, i)) for i, part in enumerate(parts)],
+               model=model.of(site.results, case, case.points[0], best) if best else None,
+               omissions=model.omissions(case.points[0]),
                drawing=drawing(site, case),
                quantities=quantities(case.points[0]), sections=sections)
     for i, part in enumerate(parts[1:] if apart else (), 1):

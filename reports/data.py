@@ -73,7 +73,9 @@ def read_cell(row):
                 row["left_out"],
                 work,
                 cost=row.get("cost", math.nan),
-                priced=row.get("priced", True))
+                priced=row.get("priced", True),
+                features=row.get("features", ""),
+                warping=row.get("warping", ""))
 
 
 def read_meshes(group):

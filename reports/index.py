@@ -4,11 +4,8 @@ import functools
 import math
 from dataclasses import dataclass
 
-from reports import answers, problems, profiles, questions, verdicts
+from reports import agreed, answers, problems, profiles, questions, verdicts
 from reports.profiles import panel
-
-AGREED = "agreement"  # kind of a value in the results on which at least two families of formulations agree
-
 
 @dataclass
 class AgreedRow:
@@ -51,7 +48,7 @@ def first_within(series, quantity, level):
 def row_of(case, quantity, level):
     point = case.points[0]
     tries = [(s, v) for s in point.series for v in s.verdicts
-             if v.quantity == quantity and v.model_truth_kind == AGREED and math.isfinite(v.limit)]
+             if v.quantity == quantity and v.model_truth_kind == agreed.AGREED and math.isfinite(v.limit)]
     if not tries:
         return None
     meshes = {s.key: first_within(s, quantity, level) for s, _ in tries}
@@ -240,7 +237,7 @@ def write(site):
                agreed=rows_agreed([c for c in site.cases if c.name not in lines], LEVEL),
                places=[place for place in PLACES if place[0].partition("#")[0] in written],
                groups=groups, sizes=sizes, tolerance=tolerance_of(site.cases),
-               others=[c for c in site.cases if c.name not in lines],
+               others=[c for c in site.cases if not any(line.case is c for _, found in groups for line in found)],
                choice=default_choice(rows, sizes) if compared.any else None,
                speed=of_speed(compared, rows),
                trust=of_trust(site.cases, rows), truths=of_truths(site.cases),

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import yaml
 
-from reports import answers
+from reports import agreed, answers
 from reports.structure_drawing.scene import Loader
 
 BUCKLING, FREQUENCIES, STIFFNESS, LOADED, MOTION = (
@@ -69,7 +69,7 @@ def questions_of(point):
 
 
 def lines_of(case):
-    point = case.points[0]
+    point = agreed.ranked(case.points[0])
     return [Line(question, case, names, {level: answers.answer(point, names, level) for level in answers.LEVELS})
             for question, names in questions_of(point).items()]
 

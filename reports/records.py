@@ -51,6 +51,8 @@ class Mesh:
     predictions: dict = field(default_factory=dict)  # quantity -> analytic estimate
     cost: float = math.nan  # cost of counted work, with the cost coefficients of the reference machine [s]
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
+    features: str = ""  # physics of the model
+    warping: str = ""  # where warping is held or free
 
     @property
     def seconds(self):

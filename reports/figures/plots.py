@@ -103,13 +103,14 @@ def leading(point, quantity, most=MOST_CURVES):
 
 def telling(point, quantities):
     """Returns the first quantity for which the errors of most formulations on their coarsest mesh exceed round-off and
-    the uncertainty of the reference value, or otherwise the first quantity."""
+    the uncertainty of the reference value, or otherwise the first quantity, if possible one that is not zero."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
         return sum(e > least for e in first) > len(first) / 2
 
-    return next((q for q in quantities if tells(q)), quantities[0])
+    nonzero = (q for q in quantities if any(v.truth and v.quantity == q for s in point.series for v in s.verdicts))
+    return next((q for q in quantities if tells(q)), None) or next(nonzero, quantities[0])
 
 
 def marks_of(site, point, series, quantity, meshes, errors="errors"):
