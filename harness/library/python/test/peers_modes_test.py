@@ -217,31 +217,35 @@ class Buckling(PeerTest):
         """The critical load of the pinned column must be Engesser's, although the column shortens by 3e-4 before it
         buckles."""
         def check(peer, name):
-            self.assertAlmostEqual(self.extrapolated(peer, name, "shear_column") / 9202.2121765, 1, delta=1e-4)
+            self.assertAlmostEqual(self.extrapolated(peer, name, "shear_column", (16, 32)) / 9202.2121765, 1, delta=2e-5)
         self.buckling(check)
 
-    def extrapolated(self, peer, name, case, **parameters):
+    def extrapolated(self, peer, name, case, meshes=(8, 16), **parameters):
         """Returns the limit extrapolated from two meshes with order 2."""
-        coarse, fine = (self.factor(peer, name, case, n, **parameters) for n in (8, 16))
+        coarse, fine = (self.factor(peer, name, case, n, **parameters) for n in meshes)
         return (4 * fine - coarse) / 3
 
     def test_lateral(self):
         """The factor of sqrt(EI GJ)/L^2 in the load of lateral buckling must be 4.0126 for a cantilever with any
-        ratio of the bending stiffnesses, and 16.936 for a fork-ended beam."""
+        ratio of the bending stiffnesses, and 16.936 for a fork-ended beam. With ForceFrame of xara, values of the
+        cantilever converge with order 1."""
         def check(peer, name):
             for want, parameters in ((4.0125993, {}), (4.0125993, {"ratio": 3}), (16.936132, {"load": "mid"})):
-                self.assertAlmostEqual(self.extrapolated(peer, name, "lateral_buckling", **parameters) / want, 1, delta=2e-5)
+                order_1 = (peer, name) == ("xara", "force") and "load" not in parameters
+                self.assertAlmostEqual(self.extrapolated(peer, name, "lateral_buckling", **parameters) / want, 1,
+                                       delta=1.5e-2 if order_1 else 2e-5)
         self.buckling(check)
 
 
 class Compliance(PeerTest):
 
+    WORDS = ("sheet_cantilever", "--set", "warping=0", "--set", "trapeze=0", "--set", "shear_factor=0.8333333333")
+
     def test_sheet(self):
-        """The plane beam of Exudyn must have the compliances of beamwork in the deflected sheet, along it and across
-        it."""
-        words = ("sheet_cantilever", "--set", "warping=0", "--set", "trapeze=0", "--set", "shear_factor=0.8333333333")
-        data = json.loads(self.answered("scene", *words, "--format", "json").stdout)
-        record = self.record("solve", *words, "-f", "collocation", "-n", 8)
+        """Exudyn must have the compliances of beamwork in the deflected sheet, along it and across it; the beam in space
+        also those out of the plane."""
+        data = json.loads(self.answered("scene", *self.WORDS, "--format", "json").stdout)
+        record = self.record("solve", *self.WORDS, "-f", "collocation", "-n", 8)
         ours = {q["quantity"]: q["value"] for q in record["quantities"] if "value" in q}
         found = peers.solve(data, "exudyn", "exact_2d_3", [16], rounds=1)
         if found.missing:
@@ -249,3 +253,40 @@ class Compliance(PeerTest):
         for name in ("C_xx", "C_ux_Fy", "C_ux_Mz", "C_uy_Fy", "C_thz_Mz"):
             self.assertAlmostEqual(found.runs[0]["values"][name] / ours[name], 1, delta=1e-5, msg=name)
         self.assertIn("does not compute this component", found.runs[0]["refused"]["C_zz"])
+        both = [run["values"] for run in peers.solve(data, "exudyn", "exact_3d", [16, 32], rounds=1).runs]
+        for name in (name for name in ours if name[:2] == "C_" and "curve" not in name):
+            self.assertAlmostEqual((4 * both[1][name] - both[0][name]) / 3 / ours[name], 1, delta=3e-4, msg=name)
+
+    def test_corner(self):
+        """The compliance, which is not symmetric, of a bent and twisted corner of two members under a force and a moment."""
+        made = bw.Scene("corner")
+        made.sections["bar"] = {"stiffness": [4e4, 1e4, 1e4, 2, 3, 5], "mass": [1] * 6}
+        for name, at in (("root", [0, 0, 0]), ("corner", [1, 0, 0]), ("tip", [1, 0.7, 0.2])):
+            made.nodes[name] = {"at": at}
+        made.nodes["root"]["hold"] = "all"
+        made.members["one"] = {"from_": "root", "to": "corner", "section": "bar", "y": [0, 1, 0]}
+        made.members["two"] = {"from_": "corner", "to": "tip", "section": "bar", "y": [1, 0, 0]}
+        made.loads["force"] = {"force": [0.5, 1.5, -1], "on": "tip"}
+        made.loads["moment"] = {"moment": [1.5, 1, 0.5], "on": "tip"}
+        made.analyses["path"] = {"static": {"stations": [0.5, 1]}}
+        made.analyses["end"] = {"compliance": {"node": "tip", "about": "path"}}
+        words = ("ux", "uy", "uz", "rx", "ry", "rz")
+        for row in words:
+            for column in words:
+                unit = {"uu": "m/N", "rr": "rad/(N m)"}.get(row[0] + column[0], "1/N" if row[0] == "u" else "rad/N")
+                made.quantities[row + column] = {"compliance": {"analysis": "end", "row": row, "column": column}, "unit": unit}
+        place = self.folder / "corner.yaml"
+        made.write(place)
+        record = self.record("solve", "--scene", place, "-f", "collocation", "-n", 8)
+        ours = np.array([q["value"] for q in record["quantities"]]).reshape(6, 6)
+        for peer, name in peers.chosen(["exudyn:exact_3d", "xara:exact"]):
+            with self.subTest(peer=peer, element=name):
+                found = peers.solve(self.data(made), peer, name, [8, 16], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                self.assertIn("values", found.runs[1], found.runs[1])
+                coarse, fine = (np.array(list(run["values"].values())).reshape(6, 6) for run in found.runs)
+                for rows in (slice(0, 3), slice(3, 6)):
+                    for columns in (slice(0, 3), slice(3, 6)):
+                        want, got = ours[rows, columns], ((4 * fine - coarse) / 3)[rows, columns]
+                        np.testing.assert_allclose(got, want, atol=3e-4 * np.abs(want).max())

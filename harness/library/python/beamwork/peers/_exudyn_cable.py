@@ -5,8 +5,8 @@ import math
 from typing import Any
 
 from ._exudyn_joint import torque_of
-from .data import COMPONENTS, Matrix, Mesh, Refused, Scene, State, rotation
-from .exudyn import Steps, check_plane
+from ._exudyn_model import Steps, check_plane
+from .data import COMPONENTS, Matrix, Mesh, Refused, Scene, State, Vector, rotation
 
 _PLANE = (0, 1, 5)
 
@@ -17,21 +17,11 @@ class Cable(Steps):
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         super().__init__(scene, name, mesh)
         check_plane(scene)
-        self.of: dict[str, list[int]] = {node: [] for node in scene.nodes}
         self.direction: dict[int, float] = {}
         self.angle: dict[str, float] = dict.fromkeys(scene.nodes, 0.0)
-        made: dict[tuple[str, int], int] = {}
+        made = self.nodes_of_members()
         for element in mesh.elements:
-            ends = []
-            for k, frame in zip(element.nodes, element.frames):
-                key = (element.member.name, k)
-                if key not in made:
-                    x, y = frame[0][0], frame[1][0]
-                    made[key] = self.add("NodePoint2DSlope1", referenceCoordinates=[*mesh.nodes[k].at[:2], x, y])
-                    self.direction[made[key]] = math.atan2(y, x)
-                    if mesh.nodes[k].name is not None:
-                        self.of[str(mesh.nodes[k].name)].append(made[key])
-                ends.append(made[key])
+            ends = [made[element.member.name, k] for k in element.nodes]
             s = element.member.section
             self.add("ObjectANCFCable2D", nodeNumbers=ends, length=element.length, massPerLength=s.rho_A,
                      bendingStiffness=s.EIz if abs(element.R[2][2]) > 0.5 else s.EIy, axialStiffness=s.EA,
@@ -46,6 +36,12 @@ class Cable(Steps):
         self.put_loads(markers.__getitem__)
         self.assemble(4 * len(made) - joints)
         self.settings = "SolveStatic, Newton increments below 1e-8, sparse, adaptive load steps"
+
+    def add_node(self, at: Vector, frame: Matrix) -> int:
+        x, y = frame[0][0], frame[1][0]
+        node = self.add("NodePoint2DSlope1", referenceCoordinates=[*at[:2], x, y])
+        self.direction[node] = math.atan2(y, x)
+        return node
 
     def _joint(self, p: int, q: int, first: int | None, other: int, axes: list[int]) -> int:
         turns = [rotation([0, 0, -self.direction[k]]) if k is not None else rotation([0, 0, 0]) for k in (first, other)]

@@ -5,14 +5,15 @@ from __future__ import annotations
 import importlib.metadata
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ._loads import KEYS, nodal, vectors
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from ._opensees_path import PathOfFrame
 from ._path import follow
-from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
+from ._xara_buckling import buckling, moved_axis
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State, Vector
 
 NAME, PROGRAM, LICENCE = "xara", "xara", "BSD-2-Clause"
 HOMEPAGE = "https://github.com/peer-open-source/xara"
@@ -29,7 +30,7 @@ ELEMENTS = {
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
         order=1,
         offers=_OFFERS,
-        analyses=_STATICS,
+        analyses=_STATICS | {"buckling"},
         keys=_KEYS,
     ),
     "exact_3": Element(
@@ -51,7 +52,7 @@ ELEMENTS = {
         " Engesser's theory",
         order=1,
         offers=_OFFERS | {"mass", "rotary inertia"},
-        analyses=_STATICS | {"modal", "continuation"},
+        analyses=_STATICS | {"modal", "continuation", "buckling"},
         keys=_KEYS,
     ),
 }
@@ -112,7 +113,7 @@ class Frame(Model):
             if a.kind == "compliance" and a.about is not None
         }
         self._refuse()
-        self.model: Any = self._new()
+        self.model: Any = self.new()
         self.unknowns = sum(6 - len(self.scene.held_at(self.mesh.nodes[n])) for n in range(len(mesh.nodes)))
         self.settings = (
             f"Umfpack, Newton, NormDispIncr {self._tolerance():.0e}, steps halved where they fail"
@@ -163,7 +164,7 @@ class Frame(Model):
                 at[inner] = [(1 - s) * a + s * b for a, b in zip(first, last)]
         return at
 
-    def _section(self, model: Any, tag: int, section: Any, length: float) -> None:
+    def _section(self, model: Any, tag: int, section: Any, length: float, stretch: float) -> None:
         stiffness = (section.EIz, section.EIy)
         ga = [
             value if math.isfinite(value) else _STIFF * ei / length**2
@@ -175,34 +176,33 @@ class Frame(Model):
             tag,
             E=1.0,
             G=1.0,
-            A=section.EA,
-            Ay=ga[0],
-            Az=ga[1],
-            Iy=section.EIy,
-            Iz=section.EIz,
-            J=section.GIt,
+            A=stretch * section.EA,
+            Ay=stretch * ga[0],
+            Az=stretch * ga[1],
+            Iy=stretch * section.EIy,
+            Iz=stretch * section.EIz,
+            J=stretch * section.GIt,
         )
 
-    def _new(self, linear: bool = False) -> Any:
+    def new(self, moved: Mapping[int, Vector] | None = None) -> Any:
+        """Makes a model. moved: displacements and rotations of nodes by which a structure without
+        stresses differs."""
         import xara
 
         model = xara.Model(ndm=3, ndf=6, rotations="Iter")
         for number, at in enumerate(self._points()):
-            model.node(number, tuple(at))
+            model.node(number, tuple(a + b for a, b in zip(at, moved[number] if moved else (0, 0, 0))))
             held = self.scene.held_at(self.mesh.nodes[number])
             model.fix(number, *(int(c in held) for c in COMPONENTS))
         tags: dict[tuple[str, float], int] = {}
         for number, e in enumerate(self.mesh.elements, start=1):
-            key = (e.member.section.name, e.member.length)
+            key = (e.member.section.name if moved is None else str(number), e.member.length)
+            z, stretch = moved_axis(e, moved) if moved else ([row[2] for row in e.R], 1.0)
             if key not in tags:
                 tags[key] = len(tags) + 1
-                self._section(model, tags[key], e.member.section, e.member.length)
+                self._section(model, tags[key], e.member.section, e.member.length, stretch)
             transform = "Identity" if self.element != "force" else "Corotational02"
-            model.geomTransf(
-                "Linear" if linear and self.element == "force" else transform,
-                number,
-                tuple(float(row[2]) for row in e.R),
-            )
+            model.geomTransf(transform, number, tuple(map(float, z)))
             model.element(
                 "ForceFrame" if self.element == "force" else "ExactFrame",
                 number,
@@ -223,7 +223,7 @@ class Frame(Model):
         self._add_pattern(model, tag, series)
         model.sp(number, dof + 1, 1.0, pattern=tag)
 
-    def _apply(self, model: Any, stations: Sequence[float], scale: float = 1.0) -> None:
+    def apply(self, model: Any, stations: Sequence[float], scale: float = 1.0) -> None:
         """Adds a separate pattern for each load and each driven component, with its values at the
         stations, which are the times 1, 2, 3 and so on. Without stations, the factor of a load is that at the
         path parameter 1."""
@@ -247,7 +247,7 @@ class Frame(Model):
                 self.drives[number, dof] = tag, series(values)
                 self._drive(model, number, dof)
 
-    def _prepare(self, model: Any, algorithm: str = "Newton") -> None:
+    def prepare(self, model: Any, algorithm: str = "Newton") -> None:
         model.system("Umfpack")
         model.numberer("RCM")
         model.constraints("Transformation")
@@ -265,6 +265,8 @@ class Frame(Model):
             return self._linear(analysis)
         if analysis.kind == "modal":
             return self._modal(analysis)
+        if analysis.kind == "buckling":
+            return buckling(self)
         if analysis.kind == "continuation":
             return follow(PathOfFrame(self, analysis), analysis, self.scene, (self.element, len(self.mesh.elements)))
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
@@ -276,20 +278,20 @@ class Frame(Model):
 
     def loaded_along_path(self) -> Any:
         """Returns the structure under loads that are proportional to the time."""
-        model = self._new()
+        model = self.new()
         for tag, load in enumerate(self.scene.loads, start=1):
             self._add_pattern(model, tag, ["Linear", tag])
             for number, vector in nodal(load, self.mesh).items():
                 model.load(number, *vector, pattern=tag)
-        self._prepare(model)
+        self.prepare(model)
         return model
 
     def _static(self, analysis: Analysis) -> Answer:
         model, self.model = self.model, None
         if model is None:
-            model = self._new()
-        self._apply(model, analysis.stations)
-        self._prepare(model)
+            model = self.new()
+        self.apply(model, analysis.stations)
+        self.prepare(model)
         states: list[State] = []
         turns = self.no_turns()
         iterations = 0
@@ -349,7 +351,7 @@ class Frame(Model):
         self._add_pattern(model, 1000, ["Constant", 1000])
         model.load(number, *load, pattern=1000)
         model.wipeAnalysis()
-        self._prepare(model)
+        self.prepare(model)
         model.integrator("LoadControl", 0.0)
         if model.analyze(1) != 0:
             raise Failed("the state with released components is not in equilibrium")
@@ -358,14 +360,20 @@ class Frame(Model):
         for dof in driven:
             self._drive(model, number, dof)
         model.wipeAnalysis()
-        self._prepare(model)
+        self.prepare(model)
         return out
+
+    def tangent(self, model: Any) -> Any:
+        """Returns the tangent stiffness matrix of all equations."""
+        import numpy as np
+
+        entries = np.array(model.eval("printA -ret -k 1.0").split(), dtype=float)
+        return entries.reshape(math.isqrt(entries.size), -1)
 
     def _inverse_at(self, model: Any, number: int) -> Any:
         import numpy as np
 
-        entries = np.array(model.eval("printA -ret -k 1.0").split(), dtype=float)
-        inverse = np.linalg.inv(entries.reshape(math.isqrt(entries.size), -1))
+        inverse = np.linalg.inv(self.tangent(model))
         dofs = model.nodeDOFs(number)
         return [
             [float(inverse[row, column]) if row >= 0 <= column else 0.0 for column in dofs]
@@ -376,8 +384,8 @@ class Frame(Model):
         self.scene.require_released(analysis)
         if analysis.about is not None:
             return Answer(states=self.kept[analysis.about])
-        model = self._new()
-        self._prepare(model)
+        model = self.new()
+        self.prepare(model)
         model.integrator("LoadControl", 0.0)
         if model.analyze(1) != 0:
             raise Failed("the undeformed state is not in equilibrium")
@@ -393,9 +401,9 @@ class Frame(Model):
             raise Refused("linear: this driver has no driven nodes in linear analyses")
 
         def solved(scale: float, algorithm: str) -> Any:
-            model = self._new()
-            self._apply(model, [], scale)
-            self._prepare(model, algorithm)
+            model = self.new()
+            self.apply(model, [], scale)
+            self.prepare(model, algorithm)
             if model.analyze(1) != 0:
                 raise Failed("the linear equations cannot be solved")
             model.reactions()
@@ -431,7 +439,7 @@ class Frame(Model):
         rigid = rigid_motions(self.scene, self.mesh)
         if rigid:
             raise Refused("modal: the eigenvalue solver of xara requires supports that hold the structure")
-        model = self._new()
+        model = self.new()
         for number, inertia in diagonal_inertia(self.mesh, lambda s: s.rho_I, PROGRAM).items():
             model.mass(number, (0.0, 0.0, 0.0, *inertia))
         squares = model.eigen(max(asked, default=0) + 1)
