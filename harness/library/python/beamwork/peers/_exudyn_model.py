@@ -116,7 +116,7 @@ class Steps(Model):
         """Adds a load on a member as forces and moments at nodes."""
         if load.follower:
             raise Refused(f"follower: {load.name} acts on a member")
-        for number, vector in nodal(load, self.mesh).items():
+        for number, vector in nodal(load, self.mesh, self.scene).items():
             marker = self.add("MarkerNodeRigid", nodeNumber=self.node_at[number])
             for kind, part in (("LoadForceVector", vector[:3]), ("LoadTorqueVector", vector[3:])):
                 if any(v != 0 for v in part):

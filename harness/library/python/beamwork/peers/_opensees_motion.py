@@ -59,7 +59,7 @@ def _loads(model: Any, analysis: Analysis) -> list[tuple[_motion.Function, dict[
             for k, m in _gravity_masses(model, load).items():
                 forces[k] = [m * g for g in load.vector] + [0.0] * 3
         else:
-            forces = {k: list(force) for k, force in nodal(load, model.mesh).items()}
+            forces = {k: list(force) for k, force in nodal(load, model.mesh, model.scene).items()}
         out.append((_motion.load_factor(model.scene, load, analysis), forces))
     return out
 

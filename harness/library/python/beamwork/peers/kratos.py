@@ -9,8 +9,8 @@ from typing import Any
 
 from ._kratos_buckling import buckling
 from ._modes import families, require_plain_mass, rigid_motions, spectrum
-from ._loads import KEYS, nodal
-from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, MeshElement, Model, Refused, Scene, State, Vector, cross, unit
+from ._loads import KEYS, THERMAL, nodal, require_known
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, MeshElement, Model, Refused, Scene, State, Vector, cross, unit
 
 NAME, PROGRAM, LICENCE = "kratos", "Kratos", "BSD-4-Clause"
 HOMEPAGE = "https://github.com/KratosMultiphysics/Kratos"
@@ -26,7 +26,7 @@ ELEMENTS = {
         order=1,
         offers=frozenset({"shear", "haringx", "large rotations", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "static", "compliance", "modal", "buckling"}),
-        keys=KEYS | {"plane", "modal.about"},
+        keys=KEYS | THERMAL | {"plane", "modal.about"},
     ),
 }
 
@@ -49,11 +49,7 @@ def build(scene: Scene, element: str, mesh: Mesh) -> Model:
 class Frame(Model):
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
         self.scene, self.mesh = scene, mesh
-        for load in scene.loads:
-            if load.follower:
-                raise Refused("follower loads: this driver applies dead loads only")
-            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
-                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
+        require_known(scene)
         self.kept: dict[str, Sequence[State]] = {}
         self.owners: list[Any] = []
         self.states_of: dict[str, Any] = {}  # the last states of static analyses
@@ -179,7 +175,7 @@ class Frame(Model):
         total: dict[int, list[float]] = {}
         for load in self.scene.loads:
             factor = float(self.scene.load_factor(load, 1.0 if p is None else p))
-            for number, vector in nodal(load, self.mesh).items():
+            for number, vector in nodal(load, self.mesh, self.scene).items():
                 target = total.setdefault(number, [0.0] * 6)
                 for i in range(6):
                     target[i] += factor * vector[i]
@@ -371,12 +367,11 @@ class Frame(Model):
 
     def _linear(self) -> Answer:
         part = self.linear_part()
-        if self.driven:
-            raise Refused("linear: this driver has no driven nodes in linear analyses")
         loads, strategy = self.loads(None), self.strategy(part, linear=True)
         strategy.InitializeSolutionStep()
         stiffness = self.matrix(part, "stiffness")
-        if not self.run(part, strategy, loads, {}, check=False):
+        drives = {at: float(self.scene.motion_value(motion, 1.0)) for at, motion in self.driven.items()}
+        if not self.run(part, strategy, loads, drives, check=False):
             raise Failed("the linear equations are not solved")
         return Answer(states=[self._linear_state(part, loads, stiffness)], iterations=1)
 
@@ -392,7 +387,7 @@ class Frame(Model):
             forces[6 * number : 6 * number + 6] -= vector
         state = self._state(part, linear=True)
         reaction = {
-            name: [float(forces[6 * n + i]) if (n, i) in self.held else 0.0 for i in range(6)]
+            name: [float(forces[6 * n + i]) if (n, i) in self.held | set(self.driven) else 0.0 for i in range(6)]
             for name, n in self.mesh.node_of.items()
         }
         return State(u=state.u, reaction=reaction)

@@ -67,7 +67,7 @@ class Beams(Model):
         self.unknowns = 6 * len(self.labels) - held
         self.settings = (f"initial value problem with static nodes, residual below 1e-9 of the largest force, at least {_FIRST} steps, "
                          f"doubled where they fail; rigid in shear: GA = {_RIGID:g} EI/L^2")
-        self.loads = [(load, nodal(load, mesh)) for load in scene.loads]
+        self.loads = [(load, nodal(load, mesh, scene)) for load in scene.loads]
         for load in scene.loads:
             if load.follower and load.kind not in ("force", "moment"):
                 raise Refused(f"follower: {load.name} acts along a member")

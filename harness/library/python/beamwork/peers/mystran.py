@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from ._modes import nodal_inertia, require_axial_loads, require_plain_mass, rigid_motions
-from ._loads import KEYS, nodal
+from ._loads import KEYS, THERMAL, nodal, require_known
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "mystran", "MYSTRAN", "MIT"
@@ -21,7 +21,7 @@ ELEMENTS = {
         "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
         offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
-        keys=KEYS | {"plane"},
+        keys=KEYS | THERMAL | {"plane"},
     ),
 }
 
@@ -53,13 +53,13 @@ class Bars(Model):
 
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
         self.scene, self.mesh = scene, mesh
-        for load in scene.loads:
-            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
-                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
-        if any(node.drive for node in scene.nodes.values()):
-            raise Refused("drive: this driver has no driven nodes")
-        self.bulk = self._structure() + self._loads()
-        self.supports = "SPC = 1\n" if "SPC1*" in self.bulk else ""
+        require_known(scene)
+        kinds = {a.kind for a in scene.analyses.values()}
+        if kinds != {"linear"} and any(scene.motion_value(m, 1.0) != 0 for n in scene.nodes.values() for m in n.drive.values()):
+            raise Refused("drive: this driver has driven nodes in linear analyses only")
+        self.loads = self._loads()
+        self.bulk = self._structure() + self.loads
+        self.supports = "SPC = 1\n" if "SPC" in self.bulk else ""
 
     def _structure(self) -> str:
         """Returns the lines of the structure. Sections have E = G = 1, so that areas and moments of
@@ -73,6 +73,10 @@ class Bars(Model):
             digits = "".join(str(i + 1) for i, c in enumerate(COMPONENTS) if c in held)
             if digits:
                 out.append(_card("SPC1", 1, digits, node.number + 1))
+            for c, motion in self.scene.nodes[node.name].drive.items() if node.name is not None else ():
+                self.unknowns -= 1
+                value = float(self.scene.motion_value(motion, 1.0))
+                out.append(_card("SPC", 1, node.number + 1, COMPONENTS.index(c) + 1, value))
         tags = {name: tag for tag, name in enumerate(self.scene.sections, start=1)}
         for name, tag in tags.items():
             s = self.scene.sections[name]
@@ -93,7 +97,7 @@ class Bars(Model):
         out = []
         for load in self.scene.loads:
             factor = float(self.scene.load_factor(load, 1.0))
-            for number, vector in nodal(load, self.mesh).items():
+            for number, vector in nodal(load, self.mesh, self.scene).items():
                 for word, part in (("FORCE", vector[:3]), ("MOMENT", vector[3:])):
                     if any(v != 0 for v in part):
                         out.append(_card(word, 10, number + 1, 0, factor, *map(float, part)))
@@ -162,7 +166,7 @@ class Bars(Model):
         if analysis.about is not None:
             raise Refused(f"{analysis.kind}: only about the undeformed structure")
         if analysis.kind == "linear":
-            lines = self._run(101, "LOAD = 10\nDISP = ALL\nSPCFORCES = ALL\n")
+            lines = self._run(101, ("LOAD = 10\n" if self.loads else "") + "DISP = ALL\nSPCFORCES = ALL\n")
             u = self._table(lines, "D I S P L A C E M E N T S")
             forces = self._table(lines, "S P C   F O R C E S")
             return Answer([self._state(u, forces)], iterations=1)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _opensees_motion
-from ._loads import KEYS, acts, nodal
+from ._loads import KEYS, THERMAL, acts, nodal
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
 from ._opensees_path import PathOfModel
@@ -22,7 +22,7 @@ REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling", "motion"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | {"modal.about", "plane", "loads.gravity", "nodes.mass", "nodes.inertia"}
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | THERMAL | {"modal.about", "plane", "nodes.mass", "nodes.inertia"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -33,7 +33,7 @@ ELEMENTS = {
                                    " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
     "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}),
-                                     keys=KEYS | {"plane", "nodes.mass", "nodes.inertia"}),
+                                     keys=KEYS | THERMAL | {"plane", "nodes.mass", "nodes.inertia"}),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
@@ -140,10 +140,6 @@ class Corotational(Model):
                         ops.sp(self.mesh.node_of[node.name], COMPONENTS.index(component) + 1, 1.0)
             tag += 1
         for load in self.scene.loads:
-            if load.kind == "gravity":
-                if any(a.kind != "motion" for a in self.scene.analyses.values()):
-                    raise Refused("gravity: the driver has it in motions only")
-                continue
             self._series(tag, load.raw, "factor")
             if load.kind == "distributed" and self.linear and not {"to_value", "lumped"} & set(load.raw):
                 for i, element in enumerate(self.mesh.elements, 1):
@@ -151,7 +147,7 @@ class Corotational(Model):
                         x, y, z = times(transposed(element.R), load.vector)
                         ops.eleLoad("-ele", i, "-type", "-beamUniform", y, z, x)
             else:
-                for number, vector in nodal(load, self.mesh).items():
+                for number, vector in nodal(load, self.mesh, self.scene).items():
                     ops.load(number, *vector)
             tag += 1
         self.next_tag = tag

@@ -5,13 +5,14 @@ import importlib.metadata
 import math
 from typing import Any
 
-from .data import COMPONENTS, Analysis, Answer, Element, Mesh, MeshElement, Model, Refused, Scene, State
+from ._loads import KEYS, THERMAL, acts, nodal, require_known
+from .data import COMPONENTS, Analysis, Answer, Element, Mesh, MeshElement, Model, Scene, State
 
 NAME, PROGRAM, LICENCE = "pynite", "PyNite", "MIT"
 HOMEPAGE = "https://github.com/JWock82/Pynite"
 REQUIRES = ("PyNiteFEA==3.2.0", )
 ELEMENTS = {"frame": Element("straight Euler-Bernoulli frame element", analyses=frozenset({"linear"}),
-                             keys=frozenset({"loads.distributed", "loads.from", "loads.to"}))}
+                             keys=KEYS | THERMAL)}
 _DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 _FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
@@ -57,22 +58,23 @@ class Frame(Model):
         self.unknowns = 6 * len(mesh.nodes) - held
 
     def _add_loads(self) -> None:
+        """Adds forces along members as loads of elements, and other loads as forces and moments at nodes."""
+        require_known(self.scene)
         for load in self.scene.loads:
             factor = self.scene.load_factor(load, 1)
-            if load.kind in ("force", "moment"):
-                if load.node is None:
-                    raise Refused("where: the driver has no forces inside members")
-                for i, value in enumerate(load.vector):
-                    if value != 0:
-                        direction = _FORCES[i + 3 * (load.kind == "moment")]
-                        self.model.add_node_load(f"n{self.mesh.node_of[load.node]}", direction, factor * value)
+            if load.kind != "distributed" or load.raw.get("lumped") in ("yes", "true"):
+                for number, vector in nodal(load, self.mesh, self.scene).items():
+                    for direction, value in zip(_FORCES, vector):
+                        if value != 0:
+                            self.model.add_node_load(f"n{number}", direction, factor * value)
                 continue
             begin, end = load.raw.get("from", 0.0), load.raw.get("to", 1.0)
             for k, element in enumerate(self.mesh.elements):
-                if element.member.name == load.member and begin - 1e-9 <= element.begin and element.end <= end + 1e-9:
-                    for i, value in enumerate(load.vector):
-                        if value != 0:
-                            self.model.add_member_dist_load(f"e{k}", _FORCES[i], factor * value, factor * value)
+                if acts(load, element):
+                    x, y = ((at - begin) / (end - begin) for at in (element.begin, element.end))
+                    for direction, p, q in zip(_FORCES, load.vector, load.raw.get("to_value", load.vector)):
+                        if p != 0 or q != 0:
+                            self.model.add_member_dist_load(f"e{k}", direction, factor * (p + (q - p) * x), factor * (p + (q - p) * y))
 
     def solve(self, analysis: Analysis) -> Answer:
         self.model.analyze_linear(check_stability=False)

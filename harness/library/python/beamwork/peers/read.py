@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _motion
-from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section
+from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section, times
 
 _KNOWN = {
     "nodes": {"at", "hold", "drive", "fork"},
@@ -40,10 +40,13 @@ def _section(name: str, raw: Mapping[str, Any], physics: frozenset[str]) -> Sect
     return Section(name, raw, E * raw["A"], (GA[0], GA[1]), G * raw["It"], E * raw["Iy"], E * raw["Iz"], mass, inertia)
 
 
-def _load(name: str, raw: Mapping[str, Any], members: Mapping[str, Any]) -> Load:
+def _load(name: str, raw: Mapping[str, Any], members: Mapping[str, Member]) -> Load:
     kind = next(iter(raw))
-    on = raw.get("on")
-    along = kind.startswith("distributed") or "where" in raw or (on in members and kind == "gravity")
+    on = raw.get("on", "")
+    if raw.get("axes") == "member" and on in members and not any(members[on].curvature):
+        raw = {key: times(members[on].axes, value) if key in (kind, "to_value", "at") else value for key, value in raw.items()
+               if key != "axes"}
+    along = kind.startswith("distributed") or "where" in raw or (on in members and kind in ("gravity", "temperature"))
     vector = raw[kind] if isinstance(raw[kind], list) else (0.0, 0.0, 0.0)
     return Load(name, kind, vector, None if along else on, on if along else None,
                 raw.get("follower") in ("true", "yes"), raw)
@@ -68,6 +71,21 @@ def _forked(entry: Mapping[str, Any]) -> set[str]:
     return {"r" + "xyz"[i] for i in range(3) if axis[i] != 0 and all(axis[k] == 0 for k in range(3) if k != i)}
 
 
+def _turning(name: str, entry: Mapping[str, Any]) -> Node:
+    """Returns a node. A rotation about one global axis is that of a node whose other rotations are held."""
+    hold, drive = set(entry.get("hold", ())) | _forked(entry), dict(entry.get("drive", {}))
+    sequence = entry.get("rotation", {}).get("sequence", [])
+    if len(sequence) == 1 and not any(c[0] == "r" for c in (*hold, *drive)):
+        axis, angle = sequence[0]["axis"], sequence[0]["angle"]
+        own = [i for i in range(3) if axis[i] > 0 and all(axis[k] == 0 for k in range(3) if k != i)]
+        if own:
+            turned = COMPONENTS[3 + own[0]]
+            hold |= {c for c in COMPONENTS[3:] if c != turned or angle == "held"}
+            drive |= {} if angle in ("free", "held") else {turned: angle}
+            entry = {key: value for key, value in entry.items() if key != "rotation"}
+    return Node(name, entry["at"], frozenset(hold), drive, entry)
+
+
 def scene_of(raw: Mapping[str, Any]) -> Scene:
     file, physics = raw["scene"], frozenset(raw["physics"])
     sections = {name: _section(name, constants, physics) for name, constants in zip(file["sections"], raw["sections"])}
@@ -76,8 +94,7 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
         first = entry["section"] if isinstance(entry["section"], str) else entry["section"][0]
         members[name] = Member(name, (entry["from"], entry["to"]), sections[first], line["start"], line["axes"],
                                line["length"], line["curvature"], entry)
-    nodes = {name: Node(name, entry["at"], frozenset(entry.get("hold", ())) | _forked(entry), entry.get("drive", {}), entry)
-             for name, entry in file["nodes"].items()}
+    nodes = {name: _turning(name, entry) for name, entry in file["nodes"].items()}
     return Scene(file["name"], raw["of"], physics, file.get("plane"), nodes, sections, members,
                  tuple(_load(name, entry, members) for name, entry in file.get("loads", {}).items()),
                  file.get("motions", {}), {name: _analysis(name, a) for name, a in file["analyses"].items()},
@@ -95,14 +112,24 @@ def check(scene: Scene, element: Element, program: str) -> None:
                 section.raw["stiffness"][i][k] != 0 for i in range(6) for k in range(6) if i != k):
             raise Refused(f"coupled section: section {name} is not diagonal")
     file = scene.raw["scene"]
+    kinds = {a.kind for a in scene.analyses.values()}
+    read: dict[str, Mapping[str, Any]] = {"nodes": {node.name: node.raw for node in scene.nodes.values()},
+                                          "loads": {load.name: load.raw for load in scene.loads}}
     for part, known in _KNOWN.items():
-        for name, entry in (file.get(part, {}).items() if part else [("scene", file)]):
+        if part == "nodes" and "loads.gravity" in element.keys and kinds <= {"linear", "static", "compliance"}:
+            known = known | {"mass", "inertia"}  # they act by their weight only
+        for name, entry in (read.get(part, file.get(part, {})).items() if part else [("scene", file)]):
             for key in entry:
                 if key not in known and f"{part}.{key}".lstrip(".") not in element.keys:
                     raise Refused(f"{key}: the driver of {program} does not read this key of {name}")
     for name, node in scene.nodes.items():
         if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
             raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
+    for load in scene.loads:
+        if load.kind == "temperature" and kinds != {"linear"}:
+            raise Refused(f"temperature: drivers have {load.name} in linear analyses only")
+        if "gradient" in load.raw and not {"rectangle", "constants", "i", "box", "tube"} & set(file["sections"][scene.members[str(load.member)].section.name]):
+            raise Refused(f"gradient: drivers have it only for sections with known principal axes ({load.name})")
     for name, motion in scene.motions.items():
         start = _motion.function_of(motion)
         if start is not None and start(0.0) != 0 and any(a.kind not in ("motion", "modal") for a in scene.analyses.values()):

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ._loads import KEYS, nodal, vectors
+from ._loads import KEYS, THERMAL, nodal, require_known, vectors
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from ._opensees_path import PathOfFrame
 from ._path import follow
@@ -24,7 +24,7 @@ REQUIRES = (
 
 _STATICS = frozenset({"linear", "static", "compliance"})
 _OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
-_KEYS = KEYS | {"plane"}
+_KEYS = KEYS | THERMAL | {"plane"}
 ELEMENTS = {
     "exact": Element(
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
@@ -112,7 +112,7 @@ class Frame(Model):
             for a in scene.analyses.values()
             if a.kind == "compliance" and a.about is not None
         }
-        self._refuse()
+        require_known(scene)
         self.model: Any = self.new()
         self.unknowns = sum(6 - len(self.scene.held_at(self.mesh.nodes[n])) for n in range(len(mesh.nodes)))
         self.settings = (
@@ -120,13 +120,6 @@ class Frame(Model):
             + ("" if element == "force" or self._planar() else ", at least 8 steps")
             + (", rigid in shear: GA = 1e6 EI/L^2 (3e-6 of a deflection)" if self.rigid else "")
         )
-
-    def _refuse(self) -> None:
-        for load in self.scene.loads:
-            if load.follower:
-                raise Refused("follower loads: this driver applies dead loads only")
-            if load.kind not in ("force", "moment", "distributed", "distributed_moment"):
-                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
 
     def _tolerance(self) -> float:
         return 1e-8 * self.size
@@ -237,12 +230,12 @@ class Frame(Model):
             tag += 1
             values = [float(self.scene.load_factor(load, p)) for p in stations or [1.0]]
             self._add_pattern(model, tag, series(values))
-            for number, vector in nodal(load, self.mesh).items():
+            for number, vector in nodal(load, self.mesh, self.scene).items():
                 model.load(number, *vector, pattern=tag)
         for node in self.scene.nodes.values():
             for component, motion in node.drive.items():
                 tag += 1
-                values = [float(self.scene.motion_value(motion, p)) for p in stations]
+                values = [float(self.scene.motion_value(motion, p)) for p in stations or [1.0]]
                 number, dof = self.mesh.node_of[node.name], COMPONENTS.index(component)
                 self.drives[number, dof] = tag, series(values)
                 self._drive(model, number, dof)
@@ -281,7 +274,7 @@ class Frame(Model):
         model = self.new()
         for tag, load in enumerate(self.scene.loads, start=1):
             self._add_pattern(model, tag, ["Linear", tag])
-            for number, vector in nodal(load, self.mesh).items():
+            for number, vector in nodal(load, self.mesh, self.scene).items():
                 model.load(number, *vector, pattern=tag)
         self.prepare(model)
         return model
@@ -396,9 +389,6 @@ class Frame(Model):
         """Makes one step of the linear algorithm. Reactions are computed by central differences of
         small loads."""
         import numpy as np
-
-        if any(node.drive for node in self.scene.nodes.values()):
-            raise Refused("linear: this driver has no driven nodes in linear analyses")
 
         def solved(scale: float, algorithm: str) -> Any:
             model = self.new()

@@ -1,0 +1,113 @@
+"""Keys of scene files that drivers of other programs read: small scenes with closed forms. Every element that reads the key must give
+these values. Programs that are not installed are skipped by name."""
+import unittest
+
+from harness.library.python.test.module import bw
+from harness.library.python.test.peers_test import PeerTest, peers
+
+L, E, G, A, IY, IZ, IT, RHO, ALPHA = 2.0, 2e11, 8e10, 1e-2, 4e-6, 2e-6, 3e-6, 8000.0, 1.2e-5
+EA, EIY, EIZ, GIT = E * A, E * IY, E * IZ, G * IT
+WORDS = ("ux", "uy", "uz", "rx", "ry", "rz")
+
+
+def cantilever(tip=None, **root):
+    """Returns a bar along x that is clamped at its root."""
+    made = bw.Scene("keys")
+    made.sections["bar"] = {"constants": {"A": A, "Iy": IY, "Iz": IZ, "It": IT, "Ip": IY + IZ}, "young": E, "shear_modulus": G,
+                            "density": RHO, "expansion": ALPHA}
+    made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all", **root}, {"at": [L, 0, 0], **(tip or {})}
+    made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0], "warping": "free"}
+    made.omit = ["trapeze", "wagner_torque", "shear"]
+    return made
+
+
+def weight():
+    made = cantilever({"mass": 5.0})
+    made.loads["bar"] = {"gravity": [0.1, -0.2, 0], "on": "all"}
+    q, F = RHO * A * 0.2, 5 * 0.2
+    return made, {"tip uy": -q * L**4 / 8 / EIZ - F * L**3 / 3 / EIZ, "root Ruy": q * L + F, "root Rux": -(RHO * A * L + 5) * 0.1,
+                  "root Rrz": q * L**2 / 2 + F * L, "tip ux": (RHO * A * L**2 / 2 + 5 * L) * 0.1 / EA}
+
+
+def heated():
+    made = cantilever()
+    made.loads["sun"] = {"temperature": 30, "gradient": [200, 100], "on": "bar"}
+    y, z = ALPHA * 200, ALPHA * 100
+    return made, {"tip ux": 30 * ALPHA * L, "tip uy": -y * L**2 / 2, "tip uz": -z * L**2 / 2, "tip ry": z * L, "tip rz": -y * L,
+                  "root Rux": 0.0, "root Rrz": 0.0}
+
+
+def heated_in_part():
+    made = cantilever({"hold": "all"})
+    made.loads["sun"] = {"temperature": 30, "on": "bar", "from_": 0.5}
+    return made, {"root Rux": 30 * ALPHA / 2 * EA, "tip Rux": -30 * ALPHA / 2 * EA}
+
+
+def settled():
+    made = cantilever({"hold": ["ux", "uz", "rx", "ry", "rz"], "drive": {"uy": "sinks"}})
+    made.motions["sinks"] = {"path": [0, 1], "value": [0, -1e-5]}
+    return made, {"tip uy": -1e-5, "tip Ruy": -12e-5 * EIZ / L**3, "root Ruy": 12e-5 * EIZ / L**3, "tip Rrz": 6e-5 * EIZ / L**2}
+
+
+def own_axes():
+    """A load along the y axis of a member that stands."""
+    made = cantilever()
+    made.nodes["tip"]["at"] = [0, L, 0]
+    made.members["bar"]["y"] = [-1, 0, 0]
+    made.loads["q"] = {"distributed": [0, 3.0, 0], "to_value": [0, 0, 0], "axes": "member", "on": "bar"}
+    return made, {"tip ux": -3 * L**4 / 30 / EIZ, "root Rux": 3 * L / 2, "root Rrz": -3 * L**2 / 6}
+
+
+def hinged():
+    """A bar on two pins, whose ends turn about z only."""
+    pin = {"hold": ["ux", "uy", "uz"], "rotation": {"sequence": [{"axis": "z", "angle": "free"}]}}
+    made = cantilever(pin, **pin)
+    made.loads["M"] = {"moment": [0, 0, 7.0], "on": "tip"}
+    return made, {"tip rz": 7 * L / 3 / EIZ, "root rz": -7 * L / 6 / EIZ, "root Ruy": 7 / L}
+
+
+CASES = {"gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
+         "part": ("loads.temperature", heated_in_part), "drive": ("", settled), "axes": ("loads.to_value", own_axes), "rotation": ("", hinged)}
+DRIVEN = {"pyelastica"}  # rods with a clamped and a free end only
+
+
+class Keys(PeerTest):
+
+    def check(self, peer, name, element, make):
+        made, wanted = make()
+        kind = "linear" if "linear" in element.analyses else "static"
+        made.analyses["all"] = {kind: {} if kind == "linear" else {"stations": [1]}}
+        for key in wanted:
+            node, word = key.split()
+            what, component = ("reaction", word[1:]) if word[0] == "R" else ("displacement", word)
+            made.quantities[key.replace(" ", "_")] = {what: {"analysis": "all", "node": node, "component": component},
+                                                      "unit": ("N" if what == "reaction" else "m") if component[0] == "u" else
+                                                      "N m" if what == "reaction" else "rad"}
+        found = peers.solve(self.data(made), peer, name, [8, 16], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        run = found.runs[-1]
+        if "space" in run.get("refusal", "") and "plane" in element.summary:
+            return
+        self.assertIn("values", run, run)
+        for key, want in wanted.items():
+            coarse, fine = (one["values"][key.replace(" ", "_")] for one in found.runs)
+            size = max(abs(v) for k, v in wanted.items() if k.split()[1][:-1] == key.split()[1][:-1]) or EA * ALPHA
+            self.assertAlmostEqual((4 * fine - coarse) / 3 / size, want / size, delta=2e-4, msg=key)
+
+    def each(self, name):
+        key, make = CASES[name]
+        for peer in peers.names():
+            for word, element in peers.load(peer).ELEMENTS.items():
+                if (not key or key in element.keys) and {"linear", "static"} & element.analyses and peer not in DRIVEN and (
+                        "temperature" not in key or "linear" in element.analyses):
+                    with self.subTest(peer=peer, element=word):
+                        self.check(peer, word, element, make)
+
+
+for case in CASES:
+    setattr(Keys, f"test_{case}", lambda self, name=case: self.each(name))
+
+
+if __name__ == "__main__":
+    unittest.main()
