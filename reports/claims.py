@@ -1,5 +1,4 @@
 """Claims of the papers compared with computed values and measured times."""
-import csv
 import functools
 import math
 import pathlib
@@ -7,7 +6,6 @@ import pathlib
 from reports import answers, data
 from reports.figures import plots
 from reports.answers import LEVELS
-from reports.site import ROOT, number, percent
 from reports.figures.style import plt
 from reports.verdicts import OWN_LIMITS
 
@@ -65,7 +63,7 @@ def column_section(site, case):
              'the exact load, to which the consistent modes converge.</figcaption></figure>')]
 
 
-NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
+NAVIGATION = [("claims.html", "claims")]
 SECTIONS = ("printed constants", "section_data=printed"), (
     "shear flow", "")  # neither set of section constants reproduces all four entries of J Table 2
 
@@ -240,60 +238,4 @@ def section(site, case):
 
 
 def tasks(site):
-    return [functools.partial(write, site), functools.partial(write_papers, site)]
-
-
-TABLE = ROOT / "reference" / "papers.csv"
-EQUATIONS = ROOT / "reference" / "equations.csv"
-STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
-NAMES = {
-    "J": "J: thin-walled beam element with shear (Jonker)",
-    "N": "N: third-order sheet element (Nijenhuis, Meijaard, Naves, Aarts)",
-}
-
-
-def read(path=TABLE):
-    with open(path, newline="", encoding="utf-8") as table:
-        return list(csv.DictReader(table))
-
-
-def measured(look, truths, row):
-    """Returns the computed value of a row and its deviations as text, or '' if there is no value."""
-    if not row["elements"]:
-        return ""
-    cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]
-    value, error, other = (
-        look.value(*cell),
-        look.error(*cell),
-        data.read_other_model(truths, row["case"], row["parameters"], row["quantity"]),
-    )
-    if not math.isfinite(value):
-        return ""
-    unit = look.points[row["case"], canonical(row["parameters"])].units.get(row["quantity"], "")
-    words = [f"{number(value)} {'' if unit == '1' else unit}".strip()] + (
-        [f"{percent(error)} from the exact beam"] if math.isfinite(error) else []
-    )
-    return ", ".join(
-        words
-        + ([f"{percent(value / other - 1)} from plate or solid"] if math.isfinite(other) else [])
-    )
-
-
-def counts(rows):
-    return [(status, sum(r["status"] == status for r in rows)) for status in STATUSES]
-
-
-def write_papers(site):
-    look, cases = Lookup(site.cases), {c.name for c in site.cases}
-    rows = [
-        {**row, "measured": measured(look, site.truths, row), "linked": row["case"] in cases}
-        for row in read()
-    ]
-    sets = read(EQUATIONS)
-    papers = [(title, [r for r in rows if r["paper"] == letter],
-               [r for r in sets if r["paper"] == letter]) for letter, title in NAMES.items()]
-    site.write(
-        "papers.html", "papers.html",
-        papers=[(title, counts(of), of, equations) for title, of, equations in papers],
-        total=[(status, n) for status, n in counts(rows) if n]
-    )
+    return [functools.partial(write, site)]

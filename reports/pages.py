@@ -24,6 +24,7 @@ PAGES = (
     "answers_table",
     "profiles",
     "claims",
+    "papers",
     "peers",
     "deviations",
     "case",

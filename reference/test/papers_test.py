@@ -9,7 +9,7 @@ import re
 import unittest
 
 from reference import pack
-from reference.derive import rederive
+from reference.derive import rederive, section
 
 
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
@@ -95,6 +95,49 @@ class Papers(unittest.TestCase):
             if r["status"] == "contradicted" and r["item"].startswith(("Table", "App", "Fig. 3"))
         ):
             self.assertIn(f"{r['paper']} {r['item']}", errata, r)
+
+
+class Numbers(unittest.TestCase):
+    """papers_numbers.csv: the printed numbers of the items of papers.csv."""
+
+    def test_each_belongs_to_an_item(self):
+        items = {(r["paper"], r["item"], r["claim"]) for r in rows()}
+        for r in rows("papers_numbers.csv"):
+            self.assertIn((r["paper"], r["item"], r["claim"]), items)
+
+    def test_each_is_compared_or_has_a_reason(self):
+        defaults = pack.read_defaults(REFERENCE / "defaults.csv")
+        for r in rows("papers_numbers.csv"):
+            self.assertIn(r["measure"], ("value", "exact", "error", "plate", "time", "derived", "none"), r)
+            of_run = r["measure"] not in ("derived", "none")
+            self.assertEqual([bool(r[n]) for n in ("case", "formulation", "elements", "quantity")], 4 * [of_run], r)
+            self.assertEqual(bool(r["proof"]), not of_run, r)
+            self.assertEqual(bool(r["ours"]), r["measure"] == "derived", r)
+            if of_run:
+                pack.parameter_hash(defaults[r["case"]], r["parameters"], r["number"])
+                self.assertTrue((ROOT / "elements" / (r["formulation"].split(":")[0] + ".c")).is_file(), r)
+
+    def test_all_numbers_of_the_tables(self):
+        """J Tables 2 and 3 and the legend of N Fig. 8 have 6, 28 and 11 numbers; Tables 1 have 13 and 8."""
+        found = {}
+        for r in (r for r in rows("papers_numbers.csv") if r["printed"] and r["unit"] != "%"):
+            found[r["paper"], r["item"]] = found.get((r["paper"], r["item"]), 0) + 1
+        self.assertEqual({item: found[item] for item in (("J", "Table 1"), ("J", "Table 2"), ("J", "Table 3"),
+                                                         ("N", "Table 1"), ("N", "Fig. 8"))},
+                         {("J", "Table 1"): 13, ("J", "Table 2"): 6, ("J", "Table 3"): 28, ("N", "Table 1"): 8, ("N", "Fig. 8"): 11})
+
+    def test_table_1(self):
+        """Values of J Table 1 from the mid-line of the section. Shear stiffnesses: inverse of the flexibilities."""
+        found = section.channel(0.6, 0.6, 0.03, 0.03)
+        stiffness = found.F**-1
+        computed = {"A": found.A * 10**6, "y_s": found.ys * 1000, "I_y": found.Iy * 10**12, "I_z": found.Iz * 10**12,
+                    "I_t": found.It * 10**12, "I_omega": found.Iw * 10**18, "I_p/A": found.Ip / found.A * 10**6,
+                    "D_y": stiffness[0, 0] * 10**6, "D_z": stiffness[1, 1] * 10**6, "D_omega": stiffness[2, 2] * 10**12,
+                    "D_zomega": stiffness[1, 2] * 10**9}
+        stated = {r["number"]: float(r["ours"]) for r in rows("papers_numbers.csv") if r["proof"].endswith("test_table_1")}
+        self.assertEqual(set(stated), set(computed))
+        for name, value in computed.items():
+            self.assertAlmostEqual(stated[name] / float(value), 1, 5, name)
 
 
 class Equations(unittest.TestCase):
