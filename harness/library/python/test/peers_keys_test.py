@@ -2,6 +2,8 @@
 these values. Programs that are not installed are skipped by name."""
 import unittest
 
+import numpy as np
+
 from harness.library.python.test.module import bw
 from harness.library.python.test.peers_test import PeerTest, peers
 
@@ -66,7 +68,22 @@ def hinged():
     return made, {"tip rz": 7 * L / 3 / EIZ, "root rz": -7 * L / 6 / EIZ, "root Ruy": 7 / L}
 
 
-CASES = {"gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
+def sprung():
+    """A bar on springs at both ends: it moves and turns as a rigid body, and bends."""
+    made = cantilever({"hold": ["uz", "rx", "ry"]})
+    made.nodes["root"]["hold"] = ["ux", "uz", "rx", "ry"]
+    k, r = 0.1 * EIZ / L**3, 0.3 * EIZ / L
+    made.springs["at_root"] = {"to": "root", "stiffness": [0, k, 0, 0, 0, r]}
+    made.springs["at_tip"] = {"to": "tip", "stiffness": [2 * k, 3 * k, 0, 0, 0, 0]}
+    F = 1e-4 * k
+    made.loads["F"] = {"force": [F, F, 0], "on": "tip"}
+    a, b, c = 12 * EIZ / L**3, 6 * EIZ / L**2, EIZ / L
+    K = np.array([[a + k, b, -a, b], [b, 4 * c + r, -b, 2 * c], [-a, -b, a + 3 * k, -b], [b, 2 * c, -b, 4 * c]])
+    u = np.linalg.solve(K, [0, 0, F, 0])
+    return made, {"root uy": u[0], "root rz": u[1], "tip uy": u[2], "tip rz": u[3], "tip ux": F / (2 * k + EA / L)}
+
+
+CASES = {"springs": ("springs", sprung), "gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
          "part": ("loads.temperature", heated_in_part), "drive": ("", settled), "axes": ("loads.to_value", own_axes), "rotation": ("", hinged)}
 DRIVEN = {"pyelastica"}  # rods with a clamped and a free end only
 

@@ -225,6 +225,13 @@ class Buckling(PeerTest):
         coarse, fine = (self.factor(peer, name, case, n, **parameters) for n in meshes)
         return (4 * fine - coarse) / 3
 
+    def test_springs(self):
+        """The load of a beam on rotational springs must be that of its closed form."""
+        def check(peer, name):
+            if "springs" in peers.load(peer).ELEMENTS[name].keys:
+                self.assertAlmostEqual(self.extrapolated(peer, name, "sprung_beam", load="axial") / 20.9567986, 1, delta=5e-5)
+        self.buckling(check)
+
     def test_lateral(self):
         """The factor of sqrt(EI GJ)/L^2 in the load of lateral buckling must be 4.0126 for a cantilever with any
         ratio of the bending stiffnesses, and 16.936 for a fork-ended beam. With ForceFrame of xara, values of the

@@ -5,7 +5,7 @@ import dataclasses
 from typing import Any
 
 from ._exudyn_modes import free_motions, require_no_torque, tangent
-from ._modes import critical_factors
+from ._modes import critical_factors, require_still_springs
 from .data import Answer, Failed, Refused
 
 _FIRST, _SECOND = 1e-6, 3e-3  # the first displacement over the length or rotation; the second load over the critical one
@@ -37,6 +37,7 @@ def buckling(model: Any) -> Answer:
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
         raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+    require_still_springs(scene, model.mesh)
     if any(load.kind.endswith("moment") or load.follower for load in scene.loads):
         raise Refused("buckling: the driver has no moments and no follower loads")
     model.settings_of.staticSolver.newton.relativeTolerance = model.settings_of.staticSolver.newton.absoluteTolerance = 1e-13

@@ -38,6 +38,12 @@ class Plane(Steps):
                 word = COMPONENTS[component]
                 if word in node.hold or word in node.drive:
                     self.constrain(node.name, number, coordinate, component, node.drive.get(word, ""))
+        for spring in scene.springs:
+            for coordinate, component in enumerate((0, 1, 5)):
+                if spring.stiffness[component] != 0:
+                    ends = [self.add("MarkerNodeCoordinate", nodeNumber=k, coordinate=c)
+                            for k, c in ((self.ground, 0), (self.node_of(spring.end), coordinate))]
+                    self.add("CoordinateSpringDamper", markerNumbers=ends, stiffness=spring.stiffness[component])
         markers = {node: self.add("MarkerNodeRigid", nodeNumber=self.nodes[mesh.node_of[node]]) for node in scene.nodes}
         self.put_loads(markers.__getitem__)
         self.add_sensors()

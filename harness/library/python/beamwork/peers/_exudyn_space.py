@@ -8,7 +8,7 @@ from typing import Any
 from . import _exudyn_motion, _motion
 from ._exudyn_joint import torque_of
 from ._exudyn_model import Steps, shear_of
-from .data import (COMPONENTS, Matrix, Mesh, MeshElement, Node, Refused, Scene, Section, State, Vector, product, rotation_vector, times,
+from .data import (COMPONENTS, Matrix, Mesh, MeshElement, Node, Refused, Scene, Section, Spring, State, Vector, product, rotation_vector, times,
                    transposed)
 
 
@@ -45,6 +45,8 @@ class Space(Steps):
                 joints += 6
                 self._joint(first, marker, self.frame[self.of[node.name][0]], self.frame[k], [1] * 6, node.name)
             self._support(node.name, first)
+        for spring in scene.springs:
+            self._spring(spring, markers[spring.end])
         self.put_loads(markers.__getitem__)
         self.add_sensors()
         self.assemble(6 * len(made) - joints if not self.ancf else 9 * len(made) - joints)
@@ -89,6 +91,14 @@ class Space(Steps):
             node = self.add("NodeRigidBodyEP", referenceCoordinates=[*at, math.cos(half), *axis])
         self.frame[node] = frame
         return node
+
+    def _spring(self, spring: Spring, marker: int) -> None:
+        import numpy  # pylint: disable=import-outside-toplevel
+        number = self.of[spring.end][0]
+        place = self.places[list(self.frame).index(number)][0] if self.places else self.scene.nodes[spring.end].at
+        ground = self.add("MarkerNodeRigid", nodeNumber=self.add("NodePointGround", referenceCoordinates=list(place)))
+        self.add("RigidBodySpringDamper", markerNumbers=[ground, marker], stiffness=numpy.diag([float(k) for k in spring.stiffness]),
+                 rotationMarker1=transposed(self.frame[number]))
 
     def _joint(self, p: int, q: int, P: Matrix, Q: Matrix, axes: list[int], name: str) -> int:
         del name

@@ -16,6 +16,8 @@ def rigid_motions(scene: Scene, mesh: Mesh) -> int:
     """Returns the number of rigid-body motions that the supports allow; members that share no node move separately."""
     import numpy as np  # pylint: disable=import-outside-toplevel
     part = list(range(len(mesh.nodes)))
+    if any(s.begin is not None for s in scene.springs):
+        raise Refused("springs: the driver has no modes with springs between nodes")
     for element in mesh.elements:
         kept = {part[k] for k in element.nodes}
         part = [min(kept) if p in kept else p for p in part]
@@ -29,8 +31,9 @@ def rigid_motions(scene: Scene, mesh: Mesh) -> int:
             turned = transposed([cross(axis, arm) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))])
             unit = [[float(i == k) for k in range(3)] for i in range(3)]
             motion = [[*unit[i], *turned[i]] for i in range(3)] + [[0.0] * 3 + unit[i] for i in range(3)]
-            driven = scene.nodes[node.name].drive if node.name is not None else {}
-            rows += [motion[COMPONENTS.index(c)] for c in scene.held_at(node) | set(driven)]
+            held = scene.held_at(node) | set(scene.nodes[node.name].drive if node.name is not None else ())
+            held |= {c for s in scene.springs if s.begin is None and s.end == node.name for c, k in zip(COMPONENTS, s.stiffness) if k > 0}
+            rows += [motion[COMPONENTS.index(c)] for c in held]
         free += 6 - (int(np.linalg.matrix_rank(np.array(rows), tol=1e-9)) if rows else 0)
     return free
 
@@ -85,6 +88,12 @@ def require_axial_loads(scene: Scene, mesh: Mesh, why: str) -> None:
         if load.kind.endswith("moment") or any(abs(sum(a * b for a, b in zip(x, v))) < (1 - 1e-9) * math.hypot(*v)
                                                for x in axes for v in vectors(load)):
             raise Refused(f"buckling: {why}")
+
+
+def require_still_springs(scene: Scene, mesh: Mesh) -> None:
+    """Raises Refused if loads before buckling may twist a rotational spring, whose moment would turn with the node in its own way."""
+    if any(any(s.stiffness[3:]) for s in scene.springs):
+        require_axial_loads(scene, mesh, "drivers have rotational springs under axial loads only")
 
 
 def _measures(mesh: Mesh, mode: Any) -> tuple[list[float], list[float]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ._modes import critical_factors
+from ._modes import critical_factors, require_still_springs
 from .data import Answer, Failed, Refused
 
 _FIRST, _SECOND = 1e-6, 1e-3  # largest displacement/length or rotation under the first loads; second/critical loads
@@ -39,6 +39,7 @@ def buckling(model: Any) -> Answer:
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
         raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+    require_still_springs(scene, model.mesh)
     if any(load.kind.endswith("moment") for load in scene.loads):
         raise Refused("buckling: not tested with moments as loads")
     model.build()

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ._modes import critical_factors, require_axial_loads
+from ._modes import critical_factors, require_axial_loads, require_still_springs
 from .data import Answer, Failed, MeshElement, Refused, Vector, cross, transposed
 
 _FIRST, _SECOND = 1e-6, 3e-3  # the first displacement over the length or rotation; the second load over the critical one
@@ -56,6 +56,7 @@ def buckling(owner: Any) -> Answer:
     scene = owner.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
         raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+    require_still_springs(scene, owner.mesh)
     if any(load.kind.endswith("moment") for load in scene.loads):
         raise Refused("buckling: the driver has no moments as loads")
     if any(math.isfinite(k) for s in scene.sections.values() for k in s.GA):

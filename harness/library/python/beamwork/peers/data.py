@@ -103,6 +103,16 @@ class Load:
 
 
 @dataclasses.dataclass(frozen=True)
+class Spring:
+    """Connects a node with the ground (begin is None) or with another node at the same place. stiffness: of the six components [N/m,
+    N m]."""
+    name: str
+    begin: str | None
+    end: str
+    stiffness: Vector
+
+
+@dataclasses.dataclass(frozen=True)
 class Analysis:
     """kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state. step: largest time
     step of a motion [s]; the driver divides the time up to the last station equally."""
@@ -250,6 +260,7 @@ class Scene:
     quantities: tuple[Quantity, ...]
     meanings: Mapping[str, str]
     raw: Mapping[str, Any]
+    springs: tuple[Spring, ...] = ()
 
     def held_at(self, node: MeshNode) -> set[str]:
         """Returns the fixed components of a node of the mesh; in a plane scene, also those out of the plane."""

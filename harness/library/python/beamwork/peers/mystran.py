@@ -21,7 +21,7 @@ ELEMENTS = {
         "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
         offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
-        keys=KEYS | THERMAL | {"plane"},
+        keys=KEYS | THERMAL | {"springs", "springs.from", "plane"},
     ),
 }
 
@@ -90,6 +90,15 @@ class Bars(Model):
             out.append(
                 _card("CBAR", number, tags[e.member.section.name], *[n + 1 for n in e.nodes], *y)
             )
+        for i, spring in enumerate(self.scene.springs):
+            end, begin = self.mesh.node_of[spring.end] + 1, len(self.mesh.nodes) + i + 1
+            if spring.begin is not None:
+                begin = self.mesh.node_of[spring.begin] + 1
+            else:  # a node for the ground
+                out.append(_card("GRID", begin, None, *map(float, self.mesh.nodes[end - 1].at)) + _card("SPC1", 1, "123456", begin))
+            for at, stiffness in enumerate(spring.stiffness, start=1):
+                if stiffness != 0:
+                    out.append(_card("CELAS2", len(self.mesh.elements) + 6 * i + at, float(stiffness), end, at, begin, at))
         return "".join(out)
 
     def _loads(self) -> str:

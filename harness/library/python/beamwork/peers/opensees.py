@@ -12,6 +12,7 @@ from ._loads import KEYS, THERMAL, acts, nodal
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
 from ._opensees_path import PathOfModel
+from ._opensees_springs import add_springs
 from ._path import follow
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State, Vector,
                    cross, times, transposed)
@@ -22,7 +23,7 @@ REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling", "motion"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | THERMAL | {"modal.about", "plane", "nodes.mass", "nodes.inertia"}
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | THERMAL | {"springs", "springs.from", "modal.about", "plane", "nodes.mass", "nodes.inertia"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -33,7 +34,7 @@ ELEMENTS = {
                                    " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
     "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}),
-                                     keys=KEYS | THERMAL | {"plane", "nodes.mass", "nodes.inertia"}),
+                                     keys=KEYS | THERMAL | {"springs", "springs.from", "plane", "nodes.mass", "nodes.inertia"}),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
@@ -98,6 +99,7 @@ class Corotational(Model):
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
             ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES and not self.moves else []))
+        add_springs(ops, scene, mesh, moved)
         self._add_supports()
         length = scene.length()
         self.unknowns = 6 * len(mesh.nodes) - self.held

@@ -12,7 +12,7 @@ NAME, PROGRAM, LICENCE = "pynite", "PyNite", "MIT"
 HOMEPAGE = "https://github.com/JWock82/Pynite"
 REQUIRES = ("PyNiteFEA==3.2.0", )
 ELEMENTS = {"frame": Element("straight Euler-Bernoulli frame element", analyses=frozenset({"linear"}),
-                             keys=KEYS | THERMAL)}
+                             keys=KEYS | THERMAL | {"springs"})}
 _DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 _FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
@@ -54,6 +54,10 @@ class Frame(Model):
             held += len(own.hold | set(own.drive))
             for component, motion in own.drive.items():
                 self.model.def_node_disp(n, _DEGREES[COMPONENTS.index(component)], scene.motion_value(motion, 1))
+        for spring in scene.springs:
+            for direction, stiffness in zip(_DEGREES, spring.stiffness):
+                if stiffness != 0:
+                    self.model.def_support_spring(f"n{mesh.node_of[spring.end]}", direction, stiffness)
         self._add_loads()
         self.unknowns = 6 * len(mesh.nodes) - held
 

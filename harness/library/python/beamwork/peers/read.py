@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _motion
-from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section, times
+from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section, Spring, times
 
 _KNOWN = {
     "nodes": {"at", "hold", "drive", "fork"},
     "members": {"from", "to", "section", "y", "warping", "curvature", "divisions"},
     "motions": {"path", "value", "pieces", "unit"},
     "loads": {"force", "moment", "on", "path", "factor", "pieces"},
+    "springs": {"to", "stiffness"},
     "": {"beamwork", "name", "summary", "source", "sections", "nodes", "members", "loads", "motions", "analyses",
          "quantities", "omit", "shear_theory", "meshes"},
 }  # keys that every driver supports; others are in Element.keys
@@ -98,7 +99,21 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
     return Scene(file["name"], raw["of"], physics, file.get("plane"), nodes, sections, members,
                  tuple(_load(name, entry, members) for name, entry in file.get("loads", {}).items()),
                  file.get("motions", {}), {name: _analysis(name, a) for name, a in file["analyses"].items()},
-                 tuple(_quantity(name, q) for name, q in file.get("quantities", {}).items()), raw["meanings"], raw)
+                 tuple(_quantity(name, q) for name, q in file.get("quantities", {}).items()), raw["meanings"], raw,
+                 tuple(Spring(name, entry.get("from"), entry["to"], entry.get("stiffness", ())) for name, entry in file.get("springs", {}).items()))
+
+
+def _check_springs(scene: Scene) -> None:
+    """Raises Refused if a spring depends on large rotations in space, or acts between distant nodes."""
+    small = all(a.kind in ("linear", "buckling") or (a.kind == "modal" and not a.about) for a in scene.analyses.values())
+    flat = _motion.normal(scene) is not None and (scene.plane or all(a.kind != "modal" or not a.about for a in scene.analyses.values()))
+    for spring in scene.springs:
+        if len(spring.stiffness) != 6:
+            raise Refused(f"stiffness: drivers have springs with six stiffnesses only, not {spring.name}")
+        if any(spring.stiffness[3:]) and not small and not flat:
+            raise Refused(f"springs: drivers have no rotational springs in large motions in space ({spring.name})")
+        if spring.begin is not None and (not small or scene.nodes[spring.begin].at != scene.nodes[spring.end].at):
+            raise Refused(f"springs: drivers have springs between nodes at one place, for small displacements, not {spring.name}")
 
 
 def check(scene: Scene, element: Element, program: str) -> None:
@@ -125,6 +140,7 @@ def check(scene: Scene, element: Element, program: str) -> None:
     for name, node in scene.nodes.items():
         if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
             raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
+    _check_springs(scene)
     for load in scene.loads:
         if load.kind == "temperature" and kinds != {"linear"}:
             raise Refused(f"temperature: drivers have {load.name} in linear analyses only")
@@ -155,6 +171,8 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
         return f"{lacks[0]}: the element does not model it"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
         return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
+    if q.kind == "energy" and scene.springs:
+        return "energy: drivers do not know that of springs"
     if analysis.kind == "motion":
         return _motion.refusal(q)
     if q.kind not in _QUANTITY or set(q.raw) - _QUANTITY[q.kind] - {"analysis", "take", "at"}:

@@ -11,6 +11,7 @@ from typing import Any
 from ._loads import KEYS, THERMAL, nodal, require_known, vectors
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from ._opensees_path import PathOfFrame
+from ._opensees_springs import add_springs
 from ._path import follow
 from ._xara_buckling import buckling, moved_axis
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State, Vector
@@ -24,7 +25,7 @@ REQUIRES = (
 
 _STATICS = frozenset({"linear", "static", "compliance"})
 _OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
-_KEYS = KEYS | THERMAL | {"plane"}
+_KEYS = KEYS | THERMAL | {"springs", "springs.from", "plane"}
 ELEMENTS = {
     "exact": Element(
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
@@ -205,6 +206,7 @@ class Frame(Model):
                 shear=int(self.element != "force" or all(map(math.isfinite, e.member.section.GA))),
                 **({"mass": e.member.section.rho_A} if self.element == "force" else {}),
             )
+        add_springs(model, self.scene, self.mesh, moved)
         return model
 
     def _add_pattern(self, model: Any, tag: int, series: list[Any]) -> None:
