@@ -146,6 +146,10 @@ docs: all library needs-docs ## build the documentation as a site that opens fro
 	@PYTHONDONTWRITEBYTECODE=1 BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) docs/generate.py $(abspath $(PROGRAM)) $(BUILD)/docs_source $(wildcard $(BUILD)/results.h5)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m sphinx -q -W --keep-going -c docs -d $(BUILD)/docs_trees $(BUILD)/docs_source $(BUILD)/docs
 
+.PHONY: site
+site: report docs ## join report, documentation and gallery to one static folder for any web server, build/site/index.html, with version, commit and date, and addresses that do not change: case/NAME/ and formulation/NAME/
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.publish $(BUILD)/report $(BUILD)/docs $(BUILD)/results.h5 -o $(BUILD)/site
+
 # Drives every formulation to extremes.
 stress: all
 	@$(PROGRAM) stress -o $(BUILD)/results.h5 $(STRESS)
