@@ -29,7 +29,7 @@ class Published(ProgramTest):
     def setUp(self):
         super().setUp()
         self.report = drawn(self.folder, "-k", "warping_torsion/default or bend_45/default", "-f", "collocation",
-                            "-f", "beamw:mass=lumped", "--shapes")
+                            "-f", "beamw_consistent:torsion=hyperbolic", "--shapes")
         self.docs = self.folder / "docs"
         self.docs.mkdir()
         (self.docs / "index.html").write_text("documentation", encoding="utf-8")
@@ -40,9 +40,9 @@ class Published(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         found = json.loads((self.site / "site.json").read_text(encoding="utf-8"))
         self.assertEqual(set(found["cases"]), {"warping_torsion", "bend_45"})
-        self.assertEqual(found["formulations"], {"beamw:mass=lumped": "beamw_mass_lumped", "collocation": "collocation"})
+        self.assertEqual(found["formulations"], {"beamw_consistent:torsion=hyperbolic": "beamw_consistent_torsion_hyperbolic", "collocation": "collocation"})
         for file in ("report/index.html", "docs/index.html", "gallery/index.html", "case/bend_45/index.html",
-                     "formulation/beamw_mass_lumped/index.html"):
+                     "formulation/beamw_consistent_torsion_hyperbolic/index.html"):
             self.assertTrue((self.site / file).is_file(), file)
         page = (self.site / "index.html").read_text(encoding="utf-8")
         for words in (found["version"], found["commit"], found["date"]):
