@@ -116,6 +116,13 @@ def _check_springs(scene: Scene) -> None:
             raise Refused(f"springs: drivers have springs between nodes at one place, for small displacements, not {spring.name}")
 
 
+def _stays_in_plane(scene: Scene) -> bool:
+    """Returns True if the structure would stay in the plane of the scene in space, too."""
+    others = {"x", "y", "z"} - set(scene.plane or "")
+    return (all(a.kind in ("linear", "static", "motion") for a in scene.analyses.values()) and len(others) == 1
+            and _motion.normal(scene) == "xyz".index(others.pop()))
+
+
 def check(scene: Scene, element: Element, program: str) -> None:
     """Raises Refused if the element lacks physics of the scene, or if the driver does not read a key or cannot
     represent an entry of the scene."""
@@ -135,6 +142,8 @@ def check(scene: Scene, element: Element, program: str) -> None:
             known = known | {"mass", "inertia"}  # they act by their weight only
         for name, entry in (read.get(part, file.get(part, {})).items() if part else [("scene", file)]):
             for key in entry:
+                if key == "plane" and _stays_in_plane(scene):
+                    continue
                 if key not in known and f"{part}.{key}".lstrip(".") not in element.keys:
                     raise Refused(f"{key}: the driver of {program} does not read this key of {name}")
     for name, node in scene.nodes.items():
