@@ -8,11 +8,11 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 from ._loads import KEYS, nodal, vectors
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Node, Refused, Scene, State, Vector,
-                   product, rotation, rotation_vector, times)
+                   rotation_vector, times)
 
 NAME, PROGRAM, LICENCE = "mbdyn", "MBDyn", "GPL-2.0"
 HOMEPAGE = "https://www.mbdyn.org"
@@ -24,9 +24,11 @@ ELEMENTS = {
     "beam2": Element("geometrically exact, 2 nodes", _OFFERS, frozenset({"static", "compliance"}), 1, _KEYS),
 }
 _RIGID = 1e6  # shear stiffness of sections that are rigid in shear, over EI/length^2
-_FIRST, _MOST = 24, 1536  # steps of a path
-_SMALL, _CYCLE = 1e-6, 13  # displacements, over the length, and rotations for central differences; steps for all of them
+_MOST = 1536  # steps of a path
+_SHORT = 1e-6  # duration of a step in which nothing moves, over that between stations
 _Rows = list[dict[int, list[float]]]
+_Tangent = tuple[float, list[tuple[int, int, float]]]  # factor of stiffnesses, and entries of the matrix
+_known: dict[tuple[str, str, int, str], int] = {}  # steps between stations with which paths were solved
 _TURN = 0.7  # [rad] with a larger rotation of a node in a step, Newton's method may find another equilibrium
 
 
@@ -61,12 +63,13 @@ class Beams(Model):
         self.owner = {number: self._owner(number) for number in range(len(mesh.nodes))}
         self.labels = sorted(set(self.owner.values()))
         self.joints, held = dict[str, int](), 0
-        self.paths: dict[str, tuple[int, _Rows]] = {}  # steps between stations and states after the steps of analyses
+        self.tangents: dict[str, list[_Tangent]] = {}  # of analyses, at their stations
         for node in scene.nodes.values():
             held += self._held(node)
         self.unknowns = 6 * len(self.labels) - held
-        self.settings = (f"initial value problem with static nodes, residual below 1e-9 of the largest force, at least {_FIRST} steps, "
-                         f"doubled where they fail; rigid in shear: GA = {_RIGID:g} EI/L^2")
+        self.settings = ("initial value problem with static nodes, residual below 1e-9 of the largest force, one step to each "
+                         "station, more where this fails; compliances from the tangents of eigenanalysis; rigid in shear: "
+                         f"GA = {_RIGID:g} EI/L^2")
         self.loads = [(load, nodal(load, mesh, scene)) for load in scene.loads]
         for load in scene.loads:
             if load.follower and load.kind not in ("force", "moment"):
@@ -119,8 +122,6 @@ class Beams(Model):
         return f"  {self.name}: {index + 1}, {', '.join(ends)}, from nodes, {', '.join(law)};\n"
 
     def _joint(self, node: Node, curve: _Curve) -> str:
-        if curve.held is not None and curve.held[0] == node.name:
-            return self._pin(node, set(COMPONENTS), curve.held[1])
         held, zero = self._components(node), [(0.0, 0.0), (1.0, 0.0)]
         drives = [curve.of_motion(node.drive[c]) if c in node.drive else zero for c in COMPONENTS]
         if "rotation" in node.raw:
@@ -175,11 +176,10 @@ class Beams(Model):
         for load, at in self.loads:
             for number, vector in at.items():
                 forces += self._force(len(forces) + 1, load, number, vector, curve)
-        joints = [self._joint(self.scene.nodes[name], curve) for name in curve.supported(self.joints)]
+        joints = [self._joint(self.scene.nodes[name], curve) for name in self.joints]
         beams = [self._beam(i) for i in range(len(self.mesh.elements))]
         nodes = [f"  structural: {k + 1}, static, {_list(x / self.length for x in self.mesh.nodes[k].at)}, eye, null, null;\n" for k in self.labels]
-        return (f"begin: data;\n  problem: initial value;\nend: data;\nbegin: initial value;\n  initial time: 0.;\n"
-                f"  final time: {curve.end():.17g};\n  time step: {1 / steps:.17g};\n  max iterations: 40;\n"
+        return (f"begin: data;\n  problem: initial value;\nend: data;\nbegin: initial value;\n{curve.times(steps)}  max iterations: 40;\n"
                 f"  tolerance: {self._tolerance():.3g};\n  method: implicit euler;\n  derivatives tolerance: 1e30;\n"
                 "  linear solver: umfpack;\n  output: none;\nend: initial value;\nbegin: control data;\n"
                 "  skip initial joint assembly;\n  default orientation: orientation matrix;\n  output precision: 16;\n"
@@ -200,31 +200,36 @@ class Beams(Model):
     def solve(self, analysis: Analysis) -> Answer:
         if analysis.kind == "compliance":
             return self._compliance(analysis)
-        count = len(analysis.stations)
-        steps = max(1, math.ceil(_FIRST / count))
+        count, matrices = len(analysis.stations), any(a.about == analysis.name for a in self.scene.analyses.values())
+        key = self.scene.of, self.name, len(self.mesh.elements), analysis.name
+        steps = _known.get(key, 1)
         while steps * count <= max(_MOST, count):
-            answer = self._run(steps, analysis)
+            answer = self._run(steps, analysis, matrices)
             if answer is not None:
+                _known[key] = steps
                 return answer
             steps *= 2
         raise Failed(f"MBDyn does not converge with {steps * count // 2} steps")
 
-    def _run(self, steps: int, analysis: Analysis) -> Answer | None:
-        stations = analysis.stations
-        found = self._output(self._deck(steps, _Curve(self.scene, stations)), steps * len(stations))
+    def _run(self, steps: int, analysis: Analysis, matrices: bool) -> Answer | None:
+        curve = _Curve(self.scene, analysis.stations, _SHORT if matrices else 0.0)
+        found = self._output(steps, curve)
         if found is None:
             return None
-        moved, forces, iterations = found
+        moved, forces, tangents, iterations = found
         if any(_angle(a[k], b[k]) > _TURN for a, b in zip(moved, moved[1:]) for k in a):
             return None
-        self.paths[analysis.name] = steps, moved
-        picked = [steps * (k + 1) - 1 for k in range(len(stations))]
-        return Answer([self._state(moved[i], forces[i] if forces else {}) for i in picked], iterations=iterations)
+        self.tangents[analysis.name] = tangents
+        each = len(moved) // len(analysis.stations)
+        states = [self._state(moved[i], forces[i] if forces else {}) for i in range(each - 1, len(moved), each)]
+        return Answer(states, iterations=iterations)
 
-    def _output(self, deck: str, count: int) -> tuple[_Rows, _Rows, int] | None:
-        """Runs the program. Returns the rows of nodes and joints after each of the steps; None: it does not converge."""
+    def _output(self, steps: int, curve: _Curve) -> tuple[_Rows, _Rows, list[_Tangent], int] | None:
+        """Runs the program. Returns the rows of nodes and joints after each step, the tangents at the stations, if the curve
+        has pauses, and the number of equation systems; None: it does not converge."""
+        count = len(curve.stations[1:]) * (steps + (curve.pause > 0))
         with tempfile.TemporaryDirectory() as folder:
-            pathlib.Path(folder, "deck").write_text(deck, encoding="ascii")
+            pathlib.Path(folder, "deck").write_text(self._deck(steps, curve), encoding="ascii")
             done = subprocess.run([_program(), "-f", "deck", "-o", "out"], cwd=folder, capture_output=True, text=True, check=False)
             told = done.stdout + done.stderr
             found = re.search(r"total iterations: (\d+)", told)
@@ -233,66 +238,39 @@ class Beams(Model):
                     raise Failed(f"MBDyn: {told.strip().splitlines()[-1] if told.strip() else 'no output'}")
                 return None
             moved = _blocks(pathlib.Path(folder, "out.mov"), len(self.labels))
-            forces = _blocks(pathlib.Path(folder, "out.jnt"), int(deck.split("  joints: ")[1].split(";")[0]))
-        return (moved[-count:], forces[-count:], int(found.group(1))) if len(moved) >= count else None
+            forces = _blocks(pathlib.Path(folder, "out.jnt"), len(self.joints))
+            tangents = [_tangent(pathlib.Path(folder, f"out_{i}.m")) for i in range(len(curve.stations[1:]) if curve.pause > 0 else 0)]
+        return (moved[-count:], forces[-count:], tangents, int(found.group(1))) if len(moved) >= count else None
 
     def _compliance(self, analysis: Analysis) -> Answer:
-        """Repeats the path with all components of the node prescribed, as they were. After each station, each of them is
-        moved forth and back, which gives the stiffness of the node by central differences."""
+        """Computes compliances from the tangents of the program."""
         import numpy  # pylint: disable=import-outside-toplevel
         name = analysis.raw["node"]
         node, number = self.scene.nodes[name], self.mesh.node_of[name]
         if self.owner[number] != number:
             raise Refused(f"part_of: {name} is part of a body")
-        found = self._moved(analysis, node)
-        if found is None and analysis.about is not None:  # with smaller steps of the path
-            self._run(4 * self.paths[analysis.about][0], self.scene.analyses[analysis.about])
-            found = self._moved(analysis, node)
-        if found is None:
-            raise Failed("MBDyn does not converge while it moves the node of the compliance")
-        forces, steps, count, iterations = found
-        held = self._components(node) - set(analysis.raw.get("released", ()))
-        free = [i for i, c in enumerate(COMPONENTS) if c not in held]
-        units = numpy.array([self.force] * 3 + [self.force * self.length] * 3)
+        iterations, tangents = 0, self.tangents.get(str(analysis.about), [])
+        if analysis.about is None:
+            found = self._output(1, _Curve(self.scene, (1.0, ), _SHORT, loaded=False))
+            if found is None:
+                raise Failed("MBDyn does not converge without loads")
+            tangents, iterations = found[2:]
+        size, first, row = 6 * len(self.labels), 6 * self.labels.index(number), 6 * len(self.labels)
+        kept = list(range(size))
+        for joint in self.joints:  # the rows of constraints follow those of nodes
+            for c in sorted(self._components(self.scene.nodes[joint]), key=COMPONENTS.index):
+                kept += [row] if joint != name or c not in analysis.raw.get("released", ()) else []
+                row += 1
+        units = numpy.array([self.length] * 3 + [1.0] * 3)
         states = []
-        for k in range(count):
-            first = (steps + _CYCLE) * k + steps
-            force = [-numpy.array(forces[first + i][self._label(name)][6:12]) * units for i in range(12)]
-            K = numpy.array([(force[2 * i] - force[2 * i + 1]) / (2 * _SMALL * (self.length if i < 3 else 1)) for i in range(6)]).T
-            C = numpy.zeros((6, 6))
-            C[numpy.ix_(free, free)] = numpy.linalg.inv(K[numpy.ix_(free, free)])
-            states.append(State(compliance=C.tolist()))
+        for scale, entries in tangents:
+            K = numpy.zeros((row, row))
+            for i, k, value in entries:
+                K[i, k] = value / scale if i < size and k < size else value
+            K = K[numpy.ix_(kept, kept)]
+            C = numpy.linalg.solve(K, numpy.eye(len(kept))[:, first:first + 6])[first:first + 6]
+            states.append(State(compliance=(C * numpy.outer(units, units) / (self.force * self.length)).tolist()))
         return Answer(states, iterations=iterations)
-
-    def _moved(self, analysis: Analysis, node: Node) -> tuple[_Rows, int, int, int] | None:
-        """Moves the node of a compliance. Returns the rows of joints, the steps between stations, the number of stations and
-        of iterations; None: it does not converge."""
-        stations: Sequence[float] = (1.0,)
-        steps, rows = 1, [[*(x / self.length for x in node.at), *(float(i == k) for i in range(3) for k in range(3))]]
-        if analysis.about is not None:
-            stations = self.scene.analyses[analysis.about].stations
-            steps, moved = self.paths[analysis.about]
-            rows = [row[self.mesh.node_of[node.name] + 1] for row in moved]
-        curve = _Curve(self.scene, stations, _CYCLE / steps, loaded=analysis.about is not None)
-        curve.held = node.name, curve.cycles(rows, steps, [x / self.length for x in node.at], self.length)
-        found = self._output(self._deck(steps, curve), (steps + _CYCLE) * len(stations))
-        if found is None or not self._same_states(found[1], steps, len(stations), node):
-            return None
-        return found[1], steps, len(stations), found[2]
-
-    def _same_states(self, rows: _Rows, steps: int, count: int, node: Node) -> bool:
-        """Returns False if the structure jumped to another equilibrium: if forces are not the same before and after small
-        displacements, change by different amounts in both directions, or act on components that are free on the path."""
-        free = [i for i, c in enumerate(COMPONENTS) if c not in self._components(node)]
-        for k in range(count):
-            first = (steps + _CYCLE) * k + steps - 1
-            before, *pairs, after = [rows[first + i][self._label(node.name)][6:12] for i in range(_CYCLE + 1)]
-            changes = [[b - a for a, b in zip(before, force)] for force in pairs]
-            most = max(abs(x) for change in changes for x in change)
-            uneven = max(abs(x + y) for a, b in zip(changes[::2], changes[1::2]) for x, y in zip(a, b))
-            if max(uneven, *(abs(a - b) for a, b in zip(before, after)), *(1e-2 * abs(before[i]) for i in free)) > 1e-2 * most:
-                return False
-        return True
 
     def _state(self, moved: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
         u: dict[str, list[float | None]] = {}
@@ -321,32 +299,21 @@ class _Curve:
     def __init__(self, scene: Scene, stations: Sequence[float], pause: float = 0.0, loaded: bool = True) -> None:
         """pause: time after each station in which loads and motions do not change."""
         self.scene, self.stations, self.pause, self.loaded = scene, [0.0, *stations], pause, loaded
-        self.held: tuple[str, list[list[tuple[float, float]]]] | None = None
 
-    def end(self) -> float:
-        return (len(self.stations) - 1) * (1 + self.pause)
-
-    def supported(self, joints: Mapping[str, int]) -> list[str]:
-        return [*joints, *([self.held[0]] if self.held is not None and self.held[0] not in joints else [])]
-
-    def cycles(self, rows: Sequence[Sequence[float]], steps: int, start: Vector, length: float) -> list[list[tuple[float, float]]]:
-        """Returns the components of a node that moves as in `rows` and is moved forth and back at the stations."""
-        out: list[list[tuple[float, float]]] = [[(0.0, 0.0)] for _ in range(6)]
-
-        def add(time: float, u: Sequence[float], R: Sequence[Vector]) -> None:
-            for points, value in zip(out, [*(length * x for x in u), *rotation_vector(R)]):
-                points.append((time, value))
-
-        for i, row in enumerate(rows):
-            time = (i + 1) / steps + i // steps * self.pause
-            u, R = [a - b for a, b in zip(row[:3], start)], [row[3:6], row[6:9], row[9:12]]
-            add(time, u, R)
-            if (i + 1) % steps == 0:
-                for k in range(12):
-                    by = [(_SMALL if k % 2 == 0 else -_SMALL) * (j == k // 2) for j in range(6)]
-                    add(time + (k + 1) / steps, [a + b for a, b in zip(u, by)], product(rotation(by[3:]), R))
-                add(time + _CYCLE / steps, u, R)
-        return out
+    def times(self, steps: int) -> str:
+        """Returns the part of the input file about times. A step in a pause begins and ends with the same state, on which
+        the rotations of the program are then based, so that its tangent is exact. The program does not choose the
+        first two steps."""
+        count, step, pause = len(self.stations) - 1, 1 / steps, self.pause
+        if pause == 0:
+            return f"  initial time: 0.;\n  final time: {count}.;\n  time step: {step:.17g};\n"
+        points = [(-pause / 2, pause), (-pause / 4, step)]
+        begins = [k * (1 + pause) + 1 for k in range(count)]
+        for t in begins:
+            points += [(t - step / 2, step), (t - pause / 4, pause), (t + pause / 4, pause), (t + 0.75 * pause, step)]
+        return (f"  initial time: {-2 * pause:.17g};\n  final time: {begins[-1] + 0.75 * pause:.17g};\n  time step: {pause:.17g};\n"
+                f"  min time step: {pause / 100:.17g};\n  strategy: change, {_drive(points)};\n"
+                f"  eigenanalysis: list, {count}, {_list(t + pause / 2 for t in begins)}, parameter, 1., output sparse matrices;\n")
 
     def _points(self, inner: Iterable[float]) -> list[tuple[float, float]]:
         """Returns the times and the path parameters of the stations and of the given path parameters."""
@@ -362,6 +329,13 @@ class _Curve:
 
     def of_motion(self, name: str) -> list[tuple[float, float]]:
         return [(t, self.scene.motion_value(name, p) * self.loaded) for t, p in self._points(self.scene.motions[name]["path"])]
+
+
+def _tangent(file: pathlib.Path) -> _Tangent:
+    """Returns the tangent in an output file of the eigenanalysis, which multiplies stiffnesses by a factor."""
+    text = file.read_text(encoding="ascii")
+    rows = [row.split() for row in text.split("Aplus = [")[1].split("]")[0].split(";") if row.strip()]
+    return float(text.split("dCoef = ")[1].split(";")[0]), [(int(i) - 1, int(k) - 1, float(v)) for i, k, v in rows]
 
 
 def _drive(points: Sequence[tuple[float, float]]) -> str:
