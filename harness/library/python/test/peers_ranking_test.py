@@ -148,6 +148,15 @@ class Record(ModuleTest):
         self.assertIn("does not give this displacement", place_of("theta", 1e-2, "fake, bar")[1]["reason"])
         self.assertIn("a peer is ahead", self.peers("--recorded", place))
 
+    def test_omit(self):
+        """A scene with less physics has another name, and no reference values."""
+        place = self.folder / "r.json"
+        self.peers("shear_elastica", "--omit", "shear", "--peers", "fake:bar", "-f", "collocation", "--elements", "2,4", "--rounds", 1, "-o", place)
+        stored = json.loads(place.read_text(encoding="utf-8"))
+        self.assertEqual((stored["case"], stored["parameters"]), ("shear_elastica", "omit=shear"))
+        self.assertNotIn(str(self.folder), place.read_text(encoding="utf-8"))
+        self.assertTrue(all(q["kind"] != "exact" for q in stored["quantities"]))
+
     def test_import_only(self):
         """If only an import file is requested, it must be written without solving formulations."""
         self.assertEqual(self.peers("elastica", "--peers", "fake:bar", "--elements", "2", "--rounds", 1, "-o", self.folder / "t.csv"), "")

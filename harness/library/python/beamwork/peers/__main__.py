@@ -6,11 +6,13 @@ import json
 import pathlib
 import sys
 import tempfile
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import Error, Refused
 from ..program import run
 from . import _features, chosen, load, names, solve, solve_all, table
+from ._ours import text_of
 from ._record import formulations_of, make, read, written
 from ._rounds import Series
 from ._tables import WRITERS
@@ -23,6 +25,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--scene", help="your scene file")
     parser.add_argument("--data", help="a scene written by `beamwork scene --format json`")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="value of a parameter")
+    parser.add_argument("--omit", metavar="PHYSICS", help="physics that the scene omits as well, separated by commas, such as warping,trapeze; "
+                        "errors are then relative to the limit on which formulations agree")
     parser.add_argument("--peers", default=",".join(names()), help="NAME or NAME:ELEMENT, separated by commas")
     parser.add_argument("-f", "--formulation", action="append", metavar="NAME", help="formulation of beamwork; may be repeated; "
                         "default: all that support the case, but none if results are only written to import files; 'none': none")
@@ -48,18 +52,32 @@ def _list() -> None:
                   f"physics: {', '.join(sorted(element.offers)) or 'none'}")
 
 
-def _scene(given: argparse.Namespace) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
+def _resolved(case: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
+    text, _ = run("scene", *case, format="json", **options)
+    scene: dict[str, Any] = json.loads(text)
+    return scene
+
+
+def _with_less(scene: Mapping[str, Any], words: str, place: pathlib.Path) -> dict[str, Any]:
+    """Writes the scene without some physics to a file. Returns it as data; whole: its name in records."""
+    omit = [*scene["scene"].get("omit", ()), *words.split(",")]
+    place.write_text(text_of({**scene["scene"], "omit": list(dict.fromkeys(omit))}), encoding="utf-8")
+    separator = "; " if "; " not in scene["of"] else ";"
+    return {**_resolved([], {"scene": place}), "whole": f"{scene['of']}{separator}omit={words}"}
+
+
+def _scene(given: argparse.Namespace, folder: pathlib.Path) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
+    """Returns the scene as data, and the words and options that select it. folder: for a temporary scene file."""
     case = [given.case] if given.case else []
     options: dict[str, Any] = {"scene": given.scene} if given.scene else {}
-    values: dict[str, Any] = {"set": dict(word.split("=", 1) for word in given.set)} if given.set else {}
-    if given.data:
-        text = pathlib.Path(given.data).read_text(encoding="utf-8")
-    else:
-        text, _ = run("scene", *case, format="json", **options, **values)
-    scene: dict[str, Any] = json.loads(text)
+    options |= {"set": dict(word.split("=", 1) for word in given.set)} if given.set else {}
+    scene = json.loads(pathlib.Path(given.data).read_text(encoding="utf-8")) if given.data else _resolved(case, options)
     if "beamwork_scene" not in scene:
         raise Refused(f"{given.data}: no scene; write one with `beamwork scene --format json`")
-    return scene, case, {**options, **values}
+    if not given.omit:
+        return scene, case, options
+    place = folder / f"{scene['scene']['name']}.yaml"
+    return _with_less(scene, given.omit, place), [], {"scene": place}
 
 
 def _store(given: argparse.Namespace, imports: str, record: dict[str, Any] | None) -> None:
@@ -88,8 +106,8 @@ def _progress(text: str) -> None:
         print(f"\r\033[K{text[:78]}", end="", file=sys.stderr, flush=True)
 
 
-def _compare(given: argparse.Namespace) -> int:
-    scene, case, options = _scene(given)
+def _compare(given: argparse.Namespace, folder: pathlib.Path) -> int:
+    scene, case, options = _scene(given, folder)
     only_imports = bool(given.output) and not any(name.endswith(".json") for name in given.output) and not given.formulation
     ranked = not given.data and not only_imports
     if given.data and (given.formulation or any(name.endswith(".json") for name in given.output)):
@@ -141,7 +159,8 @@ def main() -> int:
         if given.recorded:
             print(WRITERS[given.format](read(pathlib.Path(given.recorded))), end="")
             return 0
-        return _compare(given)
+        with tempfile.TemporaryDirectory() as folder:
+            return _compare(given, pathlib.Path(folder))
     except Error as error:
         print(f"beamwork.peers: {error}", file=sys.stderr)
         return 2

@@ -98,8 +98,8 @@ def make(scene: Mapping[str, Any], found: Sequence[Series], imports: str, case: 
     elements = sorted({run["elements"] for one in found for run in one.runs})
     judged = _judged(case, options, found, imports, elements)
     of = {s["formulation"]: s for s in judged}
-    case_name, _, parameters = scene["of"].partition("; ")
-    return {"beamwork_peers": VERSION, "case": case_name, "parameters": parameters, "beamwork": version,
+    _, _, parameters = scene.get("whole", scene["of"]).partition("; ")
+    return {"beamwork_peers": VERSION, "case": scene["scene"]["name"], "parameters": parameters, "beamwork": version,
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(), "rounds": rounds,
             "unit": {"name": name, "ours": ours, "elements": n, "seconds": unit},
             "quantities": _quantities(scene, judged), "series": [_series(one, of.get(one.program, {}), unit) for one in found]}
