@@ -119,6 +119,9 @@ const char *verb_former_name(const verb_option *);
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* Returns 1 if the letter selects the option in this or an earlier version. */
 int verb_is_letter(const verb_option *, char letter);
+/* Returns a letter that selected the option in an earlier version; 0: there is none with this
+ * index. */
+char verb_former_letter(const verb_option *, int index);
 const verb_option *verb_letter(const verb *, char letter, size_t *at);
 /* help and usage, which are added to each verb */
 extern const verb_option verb_help[];

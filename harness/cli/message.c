@@ -383,10 +383,11 @@ static int add_row(struct argp_option row[], int n, const verb_option *o, int in
                                     o->help,     0};
     if (was != NULL)
         row[n++] = (struct argp_option){.name = was, .flags = OPTION_ALIAS | OPTION_HIDDEN};
-    for (int letter = '!'; letter <= '~'; letter++)
-        if (verb_is_letter(o, (char)letter))
-            row[n++] = (struct argp_option){
-                .key = letter, .flags = OPTION_ALIAS | (letter != o->letter ? OPTION_HIDDEN : 0)};
+    if (o->letter != 0)
+        row[n++] = (struct argp_option){.key = o->letter, .flags = OPTION_ALIAS};
+    for (int i = 0; verb_former_letter(o, i) != 0; i++)
+        row[n++] = (struct argp_option){.key = verb_former_letter(o, i),
+                                        .flags = OPTION_ALIAS | OPTION_HIDDEN};
     return n;
 }
 

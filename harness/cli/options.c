@@ -110,10 +110,20 @@ static const verb_option *find_long(const verb *v, const char *name, size_t leng
 
 int verb_is_letter(const verb_option *o, char letter)
 {
+    if (o->letter == letter)
+        return 1;
     for (size_t i = 0; i < sizeof former / sizeof former[0]; i++)
         if (former[i].letter == letter && strcmp(former[i].name, o->name) == 0)
             return 1;
-    return o->letter == letter;
+    return 0;
+}
+
+char verb_former_letter(const verb_option *o, int index)
+{
+    for (size_t i = 0; i < sizeof former / sizeof former[0]; i++)
+        if (strcmp(former[i].name, o->name) == 0 && index-- == 0)
+            return former[i].letter;
+    return 0;
 }
 
 const verb_option *verb_letter(const verb *v, char letter, size_t *at)

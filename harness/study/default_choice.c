@@ -110,44 +110,54 @@ static int is_equal_rank(const standing *a, const standing *b)
     return 1;
 }
 
-static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
-                     int other, default_choice_candidates *all)
+/* Counts what speaks against each formulation, and orders the formulations that can run the scene
+ * into `all`. */
+typedef struct ranked {
+    const element_type *type;
+    standing here;
+} ranked;
+
+static int take_next(const ranked of[], int count, default_choice_candidates *all)
 {
-    standing *best = &all->here[all->count];
-    const element_type **chosen = &all->type[all->count];
-    *chosen = NULL;
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *type = registry_formulations[i];
-        if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
-            !can_run(s, type, other))
-            continue;
-        const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
-        if (*chosen != NULL && !is_better(&here, best))
-            continue;
-        *chosen = type;
-        *best = here;
-    }
-    if (*chosen == NULL || !is_equal_rank(&all->here[0], best))
+    const ranked *best = NULL;
+    for (int i = 0; i < count; i++)
+        if (!is_taken(all, of[i].type) && (best == NULL || is_better(&of[i].here, &best->here)))
+            best = &of[i];
+    if (best == NULL || (all->count > 0 && !is_equal_rank(&all->here[0], &best->here)))
         return 0;
-    all->count++;
+    all->type[all->count] = best->type;
+    all->here[all->count++] = best->here;
     return 1;
 }
 
-static default_choice_candidates candidates_of(const scene *s, const rule_subject *where,
-                                               const rule *rules, int count, int other)
+static status candidates_of(const scene *s, const rule_subject *where, const rule *rules, int count,
+                            int other, default_choice_candidates *all, fault *f)
 {
-    default_choice_candidates out = {0};
-    while (out.count < CANDIDATES && take_next(s, where, rules, count, other, &out)) {}
-    return out;
+    int types = 0, able = 0;
+    while (registry_formulations[types] != NULL)
+        types++;
+    ranked *of = malloc(((size_t)types + 1) * sizeof *of);
+    if (of == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+    for (int i = 0; i < types; i++) {
+        const element_type *type = registry_formulations[i];
+        if (!formulations_is_new(type) && type->misprint == NULL && can_run(s, type, other))
+            of[able++] =
+                (ranked){type, standing_of(s, type, where, rules, rules != NULL ? count : 0)};
+    }
+    all->count = 0;
+    while (all->count < CANDIDATES && take_next(of, able, all)) {}
+    free(of);
+    return STATUS_OK;
 }
 
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
                    default_choice_candidates *all, char why[FAULT_TEXT], fault *f)
 {
-    *all = candidates_of(s, where, rules, count, 0);
+    TRY(candidates_of(s, where, rules, count, 0, all, f));
     const int whole = all->count > 0;
     if (!whole)
-        *all = candidates_of(s, where, rules, count, 1);
+        TRY(candidates_of(s, where, rules, count, 1, all, f));
     if (all->count == 0)
         return fault_set(f, STATUS_REFUSED,
                          "no formulation supports everything that %.60s requires; 'beamwork list' "

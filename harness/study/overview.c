@@ -1,9 +1,8 @@
-#include "harness/study/study.h"
+#include "harness/study/study_impl.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 /* if there are more columns, all options of a formulation share a column */
 enum { MOST_COLUMNS = 10 };
@@ -192,13 +191,6 @@ int overview_shown(const overview *o, int row)
     return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
-/* Returns the CRC-32 of IEEE 802.3. sum: 0 for the first block, otherwise the result for the
- * previous blocks. */
-static uint32_t checksum(uint32_t sum, const unsigned char *data, size_t size)
-{
-    return (uint32_t)crc32_z(sum, data, size);
-}
-
 static void write_line(size_t size, uint32_t sum, char out[CHECKSUM_LENGTH + 1])
 {
     snprintf(out, CHECKSUM_LENGTH + 1, "beamwork-seal %016zx %08x\n", size, (unsigned)sum);
@@ -206,7 +198,7 @@ static void write_line(size_t size, uint32_t sum, char out[CHECKSUM_LENGTH + 1])
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1])
 {
-    write_line(size, checksum(0, data, size), out);
+    write_line(size, crc_add(0, data, size), out);
 }
 
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f)
@@ -219,7 +211,7 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
     while ((got = fread(buffer, 1, PIECE, from)) > 0) {
-        sum = checksum(sum, buffer, got);
+        sum = crc_add(sum, buffer, got);
         size += got;
     }
     const int bad = ferror(from);
@@ -242,7 +234,7 @@ static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
         have += got;
         if (have <= held)
             continue;
-        *sum = checksum(*sum, buffer, have - held);
+        *sum = crc_add(*sum, buffer, have - held);
         body += (long)(have - held);
         memmove(buffer, buffer + have - held, held);
         have = held;

@@ -39,8 +39,11 @@ static int list_has(const char *list, const char *text)
 static int list_has_formulation(const char *list, const char *key)
 {
     char bare[WORD];
-    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
-    return list_has(list, key) || list_has(list, bare);
+    const size_t name = strcspn(key, ":");
+    if (list_has(list, key))
+        return 1;
+    snprintf(bare, sizeof bare, "%.*s", (int)name, key);
+    return key[name] != '\0' && list_has(list, bare);
 }
 
 typedef struct rules_term {

@@ -318,6 +318,10 @@ const char *user_names_near_quantity(const scene *s, const char *name, char text
 int record_is_consistent(const cell_result *cell, const scene *s, newton_form newton,
                          char why[FAULT_TEXT]);
 
+/* Returns the CRC-32 of IEEE 802.3. sum: 0 for the first block, otherwise the result for the
+ * previous blocks. */
+uint32_t crc_add(uint32_t sum, const unsigned char *data, size_t size);
+
 /* Indexes all existing rows by case and quantity. FAULT: out of memory; rows are still found. */
 status truth_index_make(truths *t, fault *f);
 void truth_index_free(truths *t);

@@ -160,11 +160,14 @@ static void write_words(FILE *to, int at, int indent, const char *joint, const c
         const size_t word = word_at(text, joint[0] != '\0');
         const int wide = columns_of(text, word);
         if (begun && column + 1 + wide > width) {
-            fprintf(to, "%s\n", joint);
+            fputs(joint, to);
+            fputc('\n', to);
             column = begun = 0;
         }
         const int blanks = begun ? 1 : column < indent ? indent - column : 0;
-        fprintf(to, "%*s%.*s", blanks, "", (int)word, text);
+        for (int i = 0; i < blanks; i++)
+            fputc(' ', to);
+        fwrite(text, 1, word, to);
         column += blanks + wide;
         begun = 1;
         text += word;
