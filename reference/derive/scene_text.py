@@ -68,7 +68,7 @@ def table(path, value):
     return at
 
 
-# The beam (beam.py) of a section of a scene, with the physics that the scene does not omit.
+# Builds the beam of beam.py from a section of a scene, with the physics that the scene does not omit.
 #
 # A fibre rotates about the shear centre. Therefore, if the shear centre is not at the centroid, the trapeze term
 # contains ys^2 + zs^2, and the Wagner moments contain -2 ys and -2 zs. Ip/A is included only with `trapeze`. int y (y^2
