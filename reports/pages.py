@@ -60,8 +60,8 @@ def present(site):
 
 
 def build(results, truths, folder, bench=None, others=(), sweeps=(), figures=None, peers=()):
-    """Writes the whole site, or nothing after an error. `figures` are the arguments of paper.Paper for figures of papers.
-    Returns the number of tasks."""
+    """Writes the whole site, or nothing after an error. `figures` contains keyword arguments of
+    paper.Paper, which writes figures for papers (None: no figures). Returns the number of tasks."""
     folder = pathlib.Path(folder).absolute()
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as part:

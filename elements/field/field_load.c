@@ -207,7 +207,7 @@ static void add_moment(pulled *p, const field_rows *at, const double M[3])
                                 at->part[node] * M[2] / 2};
         for (int i = 0; i < 3; i++)
             p->forces[first + i] += at->part[node] * M[i];
-        for (int i = 0; i < 3 && p->K != NULL; i++) { /* M . (e_j x e_i)/2 */
+        for (int i = 0; i < 3 && p->K != NULL; i++) { /* K_ij -= dF_i/dphi_j = M . (e_j x e_i)/2 */
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             p->K[(first + i) * p->n + first + j] += half[k];
             p->K[(first + j) * p->n + first + i] -= half[k];

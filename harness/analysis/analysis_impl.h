@@ -218,8 +218,8 @@ typedef struct path_point {
     /* eigenvalue of K nearest to zero, or its real part if K is not symmetric; NAN: not needed */
     double least;
     int nearest;
-    /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude, if K is not symmetric
-     * */
+    /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude, if K is not
+     * symmetric */
     double complex mu[LEFT_NEAREST];
 } path_point;
 
@@ -433,8 +433,8 @@ int harmonic_carried(const vibration *, const scene_response *, double y[]);
 /* Computes the linear form o[all + loops] of a quantity in the displacements: the quantity is o^T
  * x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
-/* Returns the part of the input that acts directly on the prescribed motion whose reaction is read.
- * */
+/* Returns the part of the input that acts directly on the prescribed motion whose reaction is
+ * read. */
 double complex harmonic_force_at(const vibration *, const scene_response *, double w);
 /* Sets the forces of a quantity's input, without their frequency dependence, and the output of the
  * quantity in the form of forces. Each force has n entries of out. Returns the number of forces, at
@@ -597,8 +597,8 @@ void rotation_evaluate_stations(analysis_context *, int analysis, const analysis
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Advances from the current path parameter to `target`. Steps are halved if Newton's method fails,
- * and doubled if it converges easily. *increment: the first step on entry, the next step on return.
- * */
+ * and doubled if it converges easily. *increment: the first step on entry, the next step on
+ * return. */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

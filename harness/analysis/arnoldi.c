@@ -143,8 +143,8 @@ static status ritz(solver *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stores the eigenvector of eigenvalue i in x, and returns its residual relative to the eigenvalue.
- * */
+/* Stores the eigenvector of eigenvalue i in x, and returns its residual relative to the
+ * eigenvalue. */
 static double vector_of(const solver *s, int i, double complex x[])
 {
     const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;

@@ -18,8 +18,7 @@ static const char *continuation_step_defect(const continuation *, int last_resor
 static status continuation_report_jump(continuation *, const other_branch *, double from, fault *);
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
-/* Target rotation of the next step relative to its limit.
- *  */
+/* Target rotation of the next step relative to its limit. */
 static const double aim = 0.7;
 
 typedef struct attempt {

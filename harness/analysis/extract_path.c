@@ -207,8 +207,8 @@ static void take_spectrum(const analysis_context *c, const scene_quantity *q,
     free(value);
 }
 
-/* Returns the reason why a path ended before a station, from the analysis that computed the path.
- * */
+/* Returns the reason why a path ended before a station, from the analysis that computed the
+ * path. */
 static const char *reason_of_path(const analysis_context *c, const scene_quantity *q)
 {
     const int follows = c->scene->analysis[q->analysis].follows;

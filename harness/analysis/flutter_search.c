@@ -204,8 +204,8 @@ static status confirm(search *s, fault *f)
                      f);
 }
 
-/* Advances from the stored state, which belongs to `last`, to the first unstable station s->next.
- * */
+/* Advances from the stored state, which belongs to `last`, to the first unstable station
+ * s->next. */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;

@@ -233,8 +233,8 @@ status harmonic_check_rates(const vibration *v, const scene_response *r, fault *
     return STATUS_OK;
 }
 
-/* Checks the requested reactions, rates and unbalances. REFUSED: one of them cannot be evaluated.
- * */
+/* Checks the requested reactions, rates and unbalances. REFUSED: one of them cannot be
+ * evaluated. */
 static status check_outputs(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

@@ -263,8 +263,8 @@ static double error_of(const loaded_search *s)
     return s->noise > 0 ? s->noise * fabs(away / (fall * s->estimate)) : 0;
 }
 
-/* Makes Newton's current state, whose K is factored, the last stable state, and computes its sigma.
- * */
+/* Makes Newton's current state, whose K is factored, the last stable state, and computes its
+ * sigma. */
 static status take_state(loaded_search *s, fault *f)
 {
     const eigen_problem p = {
@@ -333,8 +333,8 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
-/* Returns the zero of sigma from the inverse interpolation p(sigma); INFINITY: sigma does not fall.
- * */
+/* Returns the zero of sigma from the inverse interpolation p(sigma); INFINITY: sigma does not
+ * fall. */
 static double extrapolate(const loaded_search *s)
 {
     const double *p = s->p, *g = s->sigma;

@@ -111,8 +111,8 @@ static status solve_shifted(vibration *v, unsymmetric_problem *p, int integrals,
     return STATUS_OK;
 }
 
-/* Returns 1 if the results i and k are the same pole, which was found twice, and not a double pole.
- * */
+/* Returns 1 if the results i and k are the same pole, which was found twice, and not a double
+ * pole. */
 static int is_same(const unsymmetric_result *r, int i, int k)
 {
     const double same = 1e-6, *a = r->mode + (size_t)i * (size_t)r->n,

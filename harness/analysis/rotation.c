@@ -10,8 +10,8 @@
 
 #include "harness/model/model.h"
 
-/* number of additional modes, because modes of other families may lie between the requested modes
- * */
+/* number of additional modes, because modes of other families may lie between the requested
+ * modes */
 enum { OTHERS = 2 };
 
 /* The tangent in two parts: the matrix of the geometric part, and the data of the last

@@ -129,8 +129,8 @@ static void add_row(const vibration *v, const sparse *a, int skew, int c, const 
         }
 }
 
-/* Computes the forces of a unit input on all coordinates; zero for a motion or a reference value.
- * */
+/* Computes the forces of a unit input on all coordinates; zero for a motion or a reference
+ * value. */
 static void forces_of(const vibration *v, const system_input *in, double out[])
 {
     int index[KINEMATICS_MOST];

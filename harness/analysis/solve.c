@@ -110,7 +110,8 @@ static status check_base(const analysis_context *c, int analysis, fault *f)
     return fault_set(f, o->status, "the analysis of the base state failed: %.150s", o->reason);
 }
 
-/* Checks the inputs that depend on the formulation, before any analysis runs. */
+/* Checks, before any analysis runs, that the model supports the motions and that the formulation
+ * supports the damping. */
 static status check_supported(const analysis_context *c, fault *f)
 {
     int damps = 0;
@@ -191,8 +192,8 @@ static void keep_states(analysis_context *c)
         corrupt(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Sets the value of an envelope of quantities to that of the governing quantity, and adds its name.
- * */
+/* Sets the value of an envelope of quantities to that of the governing quantity, and adds its
+ * name. */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];

@@ -1,5 +1,4 @@
-/* Nonlinear equilibrium along a load path with adaptive steps.
- *  */
+/* Nonlinear equilibrium along a load path with adaptive steps. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -212,8 +211,8 @@ static void clear_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* Computes the reaction on the node: its force [N], and the moment [N m] that causes its rotation.
- * */
+/* Computes the reaction on the node: its force [N], and the moment [N m] that causes its
+ * rotation. */
 static status reaction_of(analysis_context *c, const scene_compliance *what, const model_state *s,
                           node_tangent *t, double reaction[6], fault *f)
 {

@@ -322,8 +322,9 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports the first quantity without a value, and returns the exit status. If the mesh has no such
- * mode or the path no such point, the missing value counts as a result. */
+/* Prints the failure of the run or, after a complete run, the reason for the first missing value,
+ * and returns the exit status. If the mesh has no such mode or the path no such point, the missing
+ * value counts as a result. */
 static int report_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;

@@ -156,8 +156,8 @@ void rounds_run(const cell_request *request, double floor, rounds_reading *out)
         out->round[out->rounds++] = least;
 }
 
-/* [s] longest complete run; the time of a longer run is extrapolated from the time of one iteration
- * */
+/* [s] longest complete run; the time of a longer run is extrapolated from the time of one
+ * iteration */
 static const double longest_dense = 1;
 enum {
     MOST_UNKNOWNS = 3000

@@ -334,7 +334,7 @@ static void in_frame(const test_element *s, check_results *c)
     test_element_state(s, 0.05, 31, x);
     checks_current(c, "inertia in a rotating frame%s", s->words);
     const status outcome = s->type.inertia(s->data, x, &turning, &out);
-    checks_require(checks_open(c, "the element has inertia in a rotating frame", 0),
+    checks_require(checks_open(c, "the inertia can be computed in a rotating frame", 0),
                    outcome == STATUS_OK,
                    "inertia: the status in a rotating frame is '%s'; compute the potential, its "
                    "force, N and G%s",

@@ -875,8 +875,8 @@ typedef struct range_sweep_request {
     int partial;
     int jobs, verbose, quiet;
     FILE *progress, *csv; /* NULL: none */
-    /* Reads the batches; NULL: this process computes them. NO_VALUE: there is nothing to evaluate.
-     * */
+    /* Reads the batches; NULL: this process computes them. NO_VALUE: there is nothing to
+     * evaluate. */
     status (*take)(void *context, const shard_work *, fault *f);
     void *context;
 } range_sweep_request;

@@ -33,8 +33,8 @@ int stencil_first(stencil_function *f, const void *context, int count, int i, do
 
 int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
 {
-    /* weights for finite differences with steps h, 2 h and 3 h, whose errors are even powers of h
-     * */
+    /* weights for finite differences with steps h, 2 h and 3 h, whose errors are even powers of
+     * h */
     static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
     int outcome = 0;
     memset(out, 0, (size_t)count * sizeof *out);

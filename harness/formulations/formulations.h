@@ -113,8 +113,8 @@ typedef enum newton_form {
 
 typedef struct formulation {
     const element_type *type;
-    /* values of the options of the type in the order of its table, followed by the common options
-     * */
+    /* values of the options of the type in the order of its table, followed by the common
+     * options */
     double option[FORMULATION_OPTIONS];
     /* name, with the options that differ from their defaults */
     char key[FORMULATION_KEY];
@@ -236,8 +236,7 @@ int select_matches(const char *expression, const char *text);
  * expression is NULL. Returns 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
-/* Records which words of an expression have matched a name.
- *  */
+/* Records which words of an expression have matched a name. */
 typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;

@@ -90,7 +90,7 @@ typedef struct channel {
 status channel_init(channel *, const char *command, fault *);
 /* Starts the process, after ending an earlier one, and reads its first line into
  * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the command cannot be executed, or the
- * process does not print a line in time. FAULT: there is no pipe or no process. */
+ * process does not print a line in time. FAULT: no pipe or process can be created. */
 status channel_start(channel *, char line[], fault *);
 /* Returns 1 if this process started the child and the child is running. */
 int channel_runs(const channel *);

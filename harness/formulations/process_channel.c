@@ -42,8 +42,7 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2.
- *  */
+/* Opens a pipe whose descriptors are not 0, 1 or 2. */
 static int pipe_above(int ends[2])
 {
     int low[2];

@@ -22,8 +22,8 @@ enum {
 
 typedef struct face {
     int elements[2];
-    /* positions [m] of the lattice lines relative to the centroid of the beam, in ascending order
-     * */
+    /* positions [m] of the lattice lines relative to the centroid of the beam, in ascending
+     * order */
     double corner[2][FACE_MOST + 1];
     /* [elements along y][elements along z] 1: a brick fills the rectangle */
     unsigned char filled[FACE_MOST][FACE_MOST];
@@ -127,8 +127,8 @@ int rigid_body(const scene *s, int node);
 /* Returns 1 if the node is not attached to another node, and a member ends at the node or at a node
  * attached to it. */
 int rigid_moves(const scene *s, int node);
-/* Returns the axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE: another node.
- * */
+/* Returns the axis 0, 1 or 2 of a node that rotates only about x, y or z; SCENE_NONE: another
+ * node. */
 int rigid_single_axis(const scene_node *n);
 
 #endif

@@ -347,8 +347,8 @@ typedef struct verify_trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
-    /* path of the results of a previous run; the results of this run must not be worse; NULL: none
-     * */
+    /* path of the results of a previous run; the results of this run must not be worse; NULL:
+     * none */
     const char *former_path;
     stored_results former;
     truths truths;

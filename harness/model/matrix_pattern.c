@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 if a spring is not symmetric. damped 1: also returns 1 if a dashpot is not symmetric.
- * */
+/* Returns 1 if a spring is not symmetric. damped 1: also returns 1 if a dashpot is not
+ * symmetric. */
 static int has_unsymmetric(const model *m, int damped)
 {
     for (int i = 0; i < m->scene->springs; i++)

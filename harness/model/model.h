@@ -44,8 +44,8 @@ status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
 /* The initial shape due to the imperfections of a scene: a copy of the scene in which nodes are
- * shifted, and bodies and offsets are rotated with them, and the shifts of members between nodes.
- * */
+ * shifted, and bodies and offsets are rotated with them, and the shifts of members between
+ * nodes. */
 typedef struct model_imperfect model_imperfect;
 /* Creates the initial shape. x[free + driven]: sum of the modes of the perfect model. */
 status model_imperfect_alloc(const model *perfect, const double x[], model_imperfect **, fault *);
@@ -177,8 +177,7 @@ typedef struct division {
     int *each; /* [members] elements per piece */
 } division;
 
-/* Smallest length of a piece, relative to its member.
- *  */
+/* Smallest length of a piece, relative to its member. */
 #define DIVISION_LEAST 1e-3
 
 /* Returns the position along the member of a point x in [0, 1] of an element. The second function
@@ -349,8 +348,8 @@ static inline int model_nodes(const model *m)
 {
     return model_mesh_of(m)->nodes;
 }
-/* Return the positions of the nodes along an element (0 to 1), and their shares of a uniform load.
- * */
+/* Return the positions of the nodes along an element (0 to 1), and their shares of a uniform
+ * load. */
 static inline const double *model_places(const model *m)
 {
     return model_mesh_of(m)->place;
@@ -580,8 +579,8 @@ void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
 /* Returns the work that a spring without a potential absorbs, in addition to its energy, while its
- * deformations d change by `change`: change . (K - K^T)/2 d. The work is 0 for symmetric springs.
- * */
+ * deformations d change by `change`: change . (K - K^T)/2 d. The work is 0 for symmetric
+ * springs. */
 double spring_circulated(const model *, int spring, const double d[6], const double change[6]);
 void dashpots_add_forces(const model *, const model_state *, const double rate[], double out[]);
 void dashpots_node_force(const model *, const model_state *, const double rate[], int node,
@@ -977,8 +976,7 @@ const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 
 /* Relative rotation vectors depend on the quantities of a run. These functions store them for a
- * continued motion: their number, and the two nodes and the three components [5] of each vector.
- *  */
+ * continued motion: their number, and the two nodes and the three components [5] of each vector. */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);

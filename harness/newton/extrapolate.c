@@ -157,8 +157,8 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* Extrapolates a rotation. The rotation vectors of all states are relative to the last orientation.
- * */
+/* Extrapolates a rotation. The rotation vectors of all states are relative to the last
+ * orientation. */
 static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
                                  const model_state *const at[], model_state *out)
 {

@@ -29,8 +29,8 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
-/* Returns 1 if the load acts inside the element. A load at an end of the element acts on the node.
- * */
+/* Returns 1 if the load acts inside the element. A load at an end of the element acts on the
+ * node. */
 static int lies_along(const model *m, int element, const scene_load *load)
 {
     double part[2];

@@ -60,7 +60,8 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
 }
 
 /* Adds the force and K of an evaluated element; K contains H. Subtracts centrifugal forces.
- * present: forces due to the stresses of the state, to which H belongs. */
+ * present: J^T sigma, with the stresses of the state, for which H was computed, minus the
+ * centrifugal forces; without J^T sigma if `tangent` is 0 or the element is plain. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
                            element_part *part)

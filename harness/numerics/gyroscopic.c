@@ -227,8 +227,8 @@ static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the rate of G [1/s]: its largest entry relative to the masses of the row and the column.
- * */
+/* Returns the rate of G [1/s]: its largest entry relative to the masses of the row and the
+ * column. */
 static double rate_of_turning(const sparse *G, const sparse *M)
 {
     double rate = 0;

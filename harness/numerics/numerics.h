@@ -124,8 +124,8 @@ typedef struct eigen_problem {
     double sign;             /* +1: A; -1: -A */
     int largest;             /* number of requested eigenvalues mu on the most positive side */
     int smallest;            /* number of requested eigenvalues mu on the most negative side */
-    /* return x^T K x and x^T A x (A without the sign), in the unit of K; NULL: the matrix is used
-     * */
+    /* return x^T K x and x^T A x (A without the sign), in the unit of K; NULL: the matrix is
+     * used */
     eigen_form *K_energy, *A_energy;
     eigen_form *K_rounding,
         *A_rounding; /* return estimated rounding errors of the two forms; NULL: negligible */
@@ -171,8 +171,8 @@ double clock_wall_seconds(void);
 void stop_observe(int descriptor);
 /* Returns FAULT if this thread must stop. Iterations and steps of motions call this function. */
 status stop_check(fault *f);
-/* Returns the processor time [s] of this thread, which the load of other programs does not affect.
- * */
+/* Returns the processor time [s] of this thread, which the load of other programs does not
+ * affect. */
 double clock_processor_seconds(void);
 
 /* Small motions x exp(lambda t) in a frame that rotates at a constant rate: (lambda^2 M + lambda G
@@ -288,8 +288,8 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* Computes the durations of all parts. Their sum is `whole` [s] minus the duration of the readings.
- * */
+/* Computes the durations of all parts. Their sum is `whole` [s] minus the duration of the
+ * readings. */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;

@@ -174,8 +174,8 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
 
 typedef struct gyroscopic_index {
     int negative; /* number of negative eigenvalues of K that the modes explain */
-    /* number of frequencies with positive energy minus number of frequencies with negative energy
-     * */
+    /* number of frequencies with positive energy minus number of frequencies with negative
+     * energy */
     int crossed;
 } gyroscopic_index;
 
@@ -279,8 +279,8 @@ enum { TRIANGULAR_TOGETHER = 4 };
 typedef struct triangular_factors {
     int n;
     const int *order; /* [n] order[k] is the unknown at position k */
-    /* L: starts of the columns [n + 1], and rows [begin[n]] in ascending order within each column
-     * */
+    /* L: starts of the columns [n + 1], and rows [begin[n]] in ascending order within each
+     * column */
     const int *begin, *row;
     const double *value, *D; /* L: [begin[n]]; [n] */
     int runs;

@@ -96,8 +96,8 @@ double sparse_rounding(const sparse *a, const double x[], const double y[])
 
 struct by_numbers {
     sparse upper;
-    /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored entry is not stored
-     * */
+    /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored entry is not
+     * stored */
     int *from, *mirror;
     double *diagonal;
 };

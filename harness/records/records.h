@@ -223,8 +223,8 @@ typedef struct subject {
     const series *series;
     int mesh;           /* index in the series */
     const void *record; /* record to which most offsets refer */
-    /* index among records of the same kind, for example of a quantity, step, iteration or station
-     * */
+    /* index among records of the same kind, for example of a quantity, step, iteration or
+     * station */
     int index;
     int group; /* step of an iteration, or first point of a curve */
     const verdict *verdict;
@@ -647,8 +647,8 @@ typedef struct table_column {
 } table_column;
 
 /* Reads the table and returns the number of rows. Each row has `size` bytes. The caller frees the
- * rows. Returns -1 if the table or a column of this kind is missing, or if memory is insufficient.
- * */
+ * rows. Returns -1 if the table or a column of this kind is missing, or if memory is
+ * insufficient. */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 

@@ -56,8 +56,8 @@ void gather_declarations(const gathering *g, subjects *out);
 
 /* Opens the group with this name, or creates it. The caller closes the group with H5Gclose. */
 hid_t record_group(record_file *r, hid_t at, const char *name);
-/* Write attributes in the form that VTK requires: two integers, or an ASCII string without padding.
- * */
+/* Write attributes in the form that VTK requires: two integers, or an ASCII string without
+ * padding. */
 void record_version(record_file *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
 /* Creates a data set text[count]. */

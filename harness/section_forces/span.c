@@ -105,8 +105,8 @@ static void resultants(span_work *w)
     }
 }
 
-/* Returns the torque per twist rate due to the stresses along the fibres, which the twist inclines.
- * */
+/* Returns the torque per twist rate due to the stresses along the fibres, which the twist
+ * inclines. */
 static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;

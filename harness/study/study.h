@@ -533,8 +533,8 @@ double change_scale(const scene *s, int quantity, const solve_result *r);
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]);
-/* Computes the checksum line for a file that does not contain one. FAULT: the file cannot be read.
- * */
+/* Computes the checksum line for a file that does not contain one. FAULT: the file cannot be
+ * read. */
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
 /* Checks the last line of a file. FAULT: the file is missing, is not a beamwork file, or has been
  * altered. */
@@ -966,8 +966,8 @@ extern const run_cost_factor run_cost_factors[];
 
 /* Like counted_cost_of, with the committed coefficients. */
 double counted_cost(const formulation *chosen, const cell_result *cell);
-/* Returns 1 if the formulation has separate cost coefficients, 0 if the common coefficients apply.
- * */
+/* Returns 1 if the formulation has separate cost coefficients, 0 if the common coefficients
+ * apply. */
 int has_cost_coefficients(const cost_coefficient *rows, const formulation *chosen);
 
 /* Progress of a long run, in one line of the terminal that is overwritten and finally removed. */
@@ -1011,7 +1011,8 @@ typedef struct reached {
 
 typedef struct reach_question {
     const sweep *s;
-    /* [verdicts] verdicts on all series; quantities without a reference value are ignored */
+    /* [verdicts] verdicts on all series; a series without a reference value for a requested
+     * quantity is not ranked */
     const verdict *verdict;
     int verdicts, point;
     /* index of a quantity; REACH_EVERY: all quantities of the point for which at least one

@@ -372,8 +372,7 @@ void task_locks_free(task_locks *c)
         munmap(c, c->size);
 }
 
-/* Returns 1 if the lock is for this problem. A lock that is being written counts as another
- * problem. */
+/* Returns 1 if the lock is for this problem, 0 also while the lock is being written. */
 static int is_same(task_lock *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];

@@ -67,8 +67,8 @@ static const solve_result *result_of(const series *one, int elements)
     return NULL;
 }
 
-/* Writes the error, the value if there is no reference value, or the reason why there is no value.
- * */
+/* Writes the error, the value if there is no reference value, or the reason why there is no
+ * value. */
 static void write_cell(FILE *to, const block *b, const beside_column *c, int elements)
 {
     const solve_result *r = result_of(c->one, elements);

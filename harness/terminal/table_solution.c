@@ -139,8 +139,8 @@ static void continued_curves(FILE *to, const scene *s, const solve_result *r)
             fprintf(to, "%-*s %s\n", NAME, s->quantity[i].name, r->quantity[i].meaning);
 }
 
-/* Prints the combinations if loads have load cases, for example "ULS = 1.35 dead + 1.5 wind; ...".
- * */
+/* Prints the combinations if loads have load cases, for example "ULS = 1.35 dead + 1.5 wind;
+ * ...". */
 static void combinations(FILE *to, const scene *s)
 {
     if (s->combinations == 0)

@@ -17,8 +17,8 @@ typedef struct verdicts_block {
     const verdict **verdict;
     int name;
     int rules;
-    const rule *rule[MOST_RULES]; /* known deviations to which the table refers, with numbers from 1
-                                   * */
+    /* known deviations to which the table refers, with numbers from 1 */
+    const rule *rule[MOST_RULES];
 } verdicts_block;
 
 static const series *series_of(const verdicts_block *b, const verdict *v)

@@ -26,8 +26,8 @@ typedef struct paragraph {
 FILE *paragraph_begin(paragraph *, FILE *to);
 /* Writes the paragraph as paragraph_write does. */
 void paragraph_end(paragraph *, int at, int indent);
-/* Like paragraph_end, for a command: all lines except the last end with " \", as a shell requires.
- * */
+/* Like paragraph_end, for a command: all lines except the last end with " \", as a shell
+ * requires. */
 void paragraph_end_command(paragraph *, int at, int indent);
 
 typedef struct screen {

@@ -12,8 +12,8 @@ static void radau_in_space(const radau *, int vertex, int i, const double B[9], 
 static void radau_spread(radau *, double h);
 static void radau_damp(radau *, int fresh, const motion_state *from, double h);
 
-/* Adds the derivatives of the inertia forces on a frame in stage i to the blocks (i, k) for all k.
- * */
+/* Adds the derivatives of the inertia forces on a frame in stage i to the blocks (i, k) for all
+ * k. */
 static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;

@@ -62,8 +62,8 @@ status damping_rates(const model *, const model_state *, const double v[], doubl
 size_t dashpots_room(const model *);
 double dashpots_subtract(const model *, const model_state *, const double v[], double room[],
                          double out[]);
-/* Returns the power [W] absorbed by springs without a potential. room[dashpots_room]: work space.
- * */
+/* Returns the power [W] absorbed by springs without a potential. room[dashpots_room]: work
+ * space. */
 double springs_circulating_power(const model *, const model_state *, const double v[],
                                  double room[]);
 /* Adds the force of dashpots to F[6] on the frame of a node. */
@@ -414,8 +414,8 @@ double conserving_update(conserving *, const motion_state *from, model_state *no
 void conserving_forces(conserving *, const motion_state *from, model_state *now,
                        double *incompatibility);
 
-/* Subtracts the inertia forces from the residual and adds their tangent to S (conserving_strain.c).
- * */
+/* Subtracts the inertia forces from the residual and adds their tangent to S
+ * (conserving_strain.c). */
 void conserving_inertia(conserving *, const motion_state *from, const model_state *now, double h);
 
 void conserving_loads(conserving *, const motion_state *from, const model_state *now, double h,
@@ -988,8 +988,8 @@ status resume_before(const analysis_context *, int before, const outcome_end **,
 status resume_take(const analysis_context *, const outcome_end *, motion_state *now,
                    resume_control *, fault *);
 
-/* Consistent state of coordinates without inertia, computed from positions and rates at one time.
- * */
+/* Consistent state of coordinates without inertia, computed from positions and rates at one
+ * time. */
 
 /* Brings massless coordinates into equilibrium with the loads and with the gyroscopic moments of
  * the other rates. Then computes accelerations (0 for massless coordinates). Coordinates whose
@@ -1073,8 +1073,8 @@ void consistent_mass_place(const model *, const consistent_mass_parts *,
 void consistent_mass_times(const model *, const consistent_mass_parts *, const double A[],
                            const consistent_mass_motion motion[], double out[]);
 void consistent_mass_rows(const consistent_mass_parts *, double K[]);
-/* Adds the same terms as inertia_swing_column and inertia_swing_row, without the motion on the arm.
- * */
+/* Adds the same terms as inertia_swing_column and inertia_swing_row, without the motion on the
+ * arm. */
 void consistent_mass_swing(const model *, const consistent_mass_parts *, double rate, double place,
                            double K[]);
 

@@ -162,8 +162,8 @@ static void alter_step(hid_t file, const alter_list *list, const uint8_t step[AL
     }
 }
 
-/* Returns the path of the altered copy of the file that the environment variable FUZZ_BASE names.
- * */
+/* Returns the path of the altered copy of the file that the environment variable FUZZ_BASE
+ * names. */
 static const char *alter_file(const uint8_t *data, size_t size)
 {
     static char all[ALTER_BYTES];

@@ -1,5 +1,5 @@
-/* Uses the input as the short table of a run. A table that was read must be written and read again.
- * */
+/* Uses the input as the short table of a run. A table that was read must be written and read
+ * again. */
 #include "harness/records/records.h"
 #include "harness/tools/fuzz/fuzz.h"
 
