@@ -206,6 +206,7 @@ words: ## check texts that users read, documentation and comments for words to a
 
 format-check: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 --dry-run -Werror
+	@! git grep -nE '^ *\* +\*/$$' -- '*.c' '*.h' || { echo 'a comment ends on an empty line: move a word to this line'; exit 1; }
 
 check: ## run everything that CI runs: gcc and clang with warnings as errors, layout, tidy, sanitizers, tests, verify
 	@.ci/run
