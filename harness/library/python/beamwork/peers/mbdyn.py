@@ -270,7 +270,7 @@ class Beams(Model):
             K = K[numpy.ix_(kept, kept)]
             C = numpy.linalg.solve(K, numpy.eye(len(kept))[:, first:first + 6])[first:first + 6]
             states.append(State(compliance=(C * numpy.outer(units, units) / (self.force * self.length)).tolist()))
-        return Answer(states, iterations=iterations)
+        return Answer(states, iterations=iterations + len(states))
 
     def _state(self, moved: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
         u: dict[str, list[float | None]] = {}
