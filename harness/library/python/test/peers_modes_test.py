@@ -172,6 +172,16 @@ class Modes(PeerTest):
             np.testing.assert_allclose(self.solved(peer, name, made)[:6], self.ours(made)[:6], rtol=1.5e-2)
         self.each(check)
 
+    def test_hinge(self):
+        """The frequencies of a bar that is clamped at one end and has a hinge at the other must be those of beamwork."""
+        def check(peer, name, element):
+            if "members.release" in element.keys:
+                made = bar(element)
+                made.nodes["b"]["hold"] = "all"
+                made.members["bar"]["release"] = {"to": ["rz"]}
+                np.testing.assert_allclose(self.solved(peer, name, made), self.ours(made), rtol=2.5e-2)
+        self.each(check)
+
     def test_ring(self):
         """A free ring must have six rigid-body motions, and double frequencies of bending that converge to the
         closed form."""

@@ -35,6 +35,8 @@ def rigid_motions(scene: Scene, mesh: Mesh) -> int:
             held |= {c for s in scene.springs if s.begin is None and s.end == node.name for c, k in zip(COMPONENTS, s.stiffness) if k > 0}
             rows += [motion[COMPONENTS.index(c)] for c in held]
         free += 6 - (int(np.linalg.matrix_rank(np.array(rows), tol=1e-9)) if rows else 0)
+    if free and any("release" in member.raw for member in scene.members.values()):
+        raise Refused("release: the driver has no modes of structures with hinges that their supports do not hold")
     return free
 
 

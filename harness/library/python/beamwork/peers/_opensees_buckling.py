@@ -18,7 +18,7 @@ def _moved(model: Any, path: float) -> dict[int, list[float]]:
     ops.analysis("Static", "-noWarnings")
     if ops.analyze(1) != 0:
         raise Failed("Newton's method does not converge at small loads")
-    return {node.number: [float(x) for x in ops.nodeDisp(node.number)] for node in model.mesh.nodes}
+    return {int(number): [float(x) for x in ops.nodeDisp(number)] for number in ops.getNodeTags()}
 
 
 def _slope(model: Any, path: float) -> Any:

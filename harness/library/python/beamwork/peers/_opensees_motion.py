@@ -8,6 +8,7 @@ from typing import Any
 from . import _motion
 from ._loads import nodal
 from ._modes import diagonal_inertia
+from ._opensees_springs import reactions
 from .data import COMPONENTS, Analysis, Answer, Failed, Node, Refused, State
 
 _SMALL = 1e-2  # [rad] in space, inertias of nodes do not rotate with them, so larger rotations are rejected
@@ -175,5 +176,5 @@ def _state(model: Any, nodes: set[str]) -> State:
     ops.reactions("-dynamic")
     number = {name: model.mesh.node_of[name] for name in nodes}
     return State({name: [float(x) for x in ops.nodeDisp(k)] for name, k in number.items()},
-                 {name: [float(x) for x in ops.nodeReaction(k)] for name, k in number.items()},
+                 {name: values for name, values in reactions(ops, model.scene, model.mesh).items() if name in nodes},
                  rate={name: [float(x) for x in ops.nodeVel(k)] for name, k in number.items()})

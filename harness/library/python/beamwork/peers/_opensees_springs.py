@@ -1,10 +1,11 @@
-"""Springs of OpenSees and xara: zero-length elements."""
+"""Springs and released ends of members in OpenSees and xara: zero-length elements, and nodes with equal components."""
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from .data import Mesh, Scene, Vector
+from ._hinges import hinges, idle
+from .data import COMPONENTS, Mesh, Scene, Vector
 
 
 def add_springs(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] | None) -> None:
@@ -20,3 +21,29 @@ def add_springs(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] 
         for tag, k in zip(tags, directions):
             ops.uniaxialMaterial("Elastic", tag, spring.stiffness[k])
         ops.element("zeroLength", len(mesh.elements) + i + 1, begin, number, "-mat", *tags, "-dir", *(k + 1 for k in directions))
+
+
+def add_hinges(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] | None) -> list[list[int]]:
+    """Adds a node for each released end of a member, whose other components are those of the node there. Returns the nodes of all
+    elements."""
+    out = [list(e.nodes) for e in mesh.elements]
+    for i, hinge in enumerate(hinges(scene, mesh)):
+        number = len(mesh.nodes) + len(scene.springs) + i
+        ops.node(number, *(float(a + b) for a, b in zip(mesh.nodes[hinge.node].at, moved[hinge.node] if moved else (0, 0, 0))))
+        ops.equalDOF(hinge.node, number, *(k + 1 for k, c in enumerate(COMPONENTS) if c not in hinge.components))
+        out[hinge.element][-hinge.end] = number
+    for name, rotations in idle(scene).items():
+        held = scene.held_at(mesh.nodes[mesh.node_of[name]])
+        ops.fix(mesh.node_of[name], *(int(c in rotations and c not in held) for c in COMPONENTS))
+    return out
+
+
+def reactions(ops: Any, scene: Scene, mesh: Mesh) -> dict[str, list[float]]:
+    """Returns the reactions at the nodes of the scene, with the forces of released ends, which the program gives at nodes of their
+    own."""
+    out = {name: [float(x) for x in ops.nodeReaction(number)] for name, number in mesh.node_of.items()}
+    for i, hinge in enumerate(hinges(scene, mesh)):
+        more = ops.nodeReaction(len(mesh.nodes) + len(scene.springs) + i)
+        own = out[str(mesh.nodes[hinge.node].name)]
+        own[:] = [a + (0.0 if c in hinge.components else float(b)) for a, b, c in zip(own, more, COMPONENTS)]
+    return out

@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from ._modes import nodal_inertia, require_axial_loads, require_plain_mass, rigid_motions
+from ._hinges import hinges, idle
 from ._loads import KEYS, THERMAL, nodal, require_known
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 
@@ -21,7 +22,7 @@ ELEMENTS = {
         "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
         offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
-        keys=KEYS | THERMAL | {"springs", "springs.from", "plane"},
+        keys=KEYS | THERMAL | {"springs", "springs.from", "members.release", "plane"},
     ),
 }
 
@@ -77,6 +78,9 @@ class Bars(Model):
                 self.unknowns -= 1
                 value = float(self.scene.motion_value(motion, 1.0))
                 out.append(_card("SPC", 1, node.number + 1, COMPONENTS.index(c) + 1, value))
+        for name, rotations in idle(self.scene).items():
+            digits = "".join(str(i + 1) for i, c in enumerate(COMPONENTS) if c in rotations)
+            out.append(_card("SPC1", 1, digits, self.mesh.node_of[name] + 1))
         tags = {name: tag for tag, name in enumerate(self.scene.sections, start=1)}
         for name, tag in tags.items():
             s = self.scene.sections[name]
@@ -85,11 +89,12 @@ class Bars(Model):
             out.append(
                 _card("PBAR", tag, tag, s.EA, s.EIz, s.EIy, s.GIt, *[None] * 10, k[0], k[1])
             )
-        for number, e in enumerate(self.mesh.elements, start=1):
+        pins = {(h.element, h.end): h.own for h in hinges(self.scene, self.mesh)}
+        for index, e in enumerate(self.mesh.elements):
             y = [float(row[1]) for row in e.R]
-            out.append(
-                _card("CBAR", number, tags[e.member.section.name], *[n + 1 for n in e.nodes], *y)
-            )
+            pin = ["".join(str(k + 1) for k, c in enumerate(COMPONENTS) if c in pins.get((index, end), ())) or None for end in (0, 1)]
+            fields = [index + 1, tags[e.member.section.name], *[n + 1 for n in e.nodes], *y, None, *pin]
+            out.append(_card("CBAR", *fields[: 10 if any(pin) else 7]))
         for i, spring in enumerate(self.scene.springs):
             end, begin = self.mesh.node_of[spring.end] + 1, len(self.mesh.nodes) + i + 1
             if spring.begin is not None:

@@ -12,7 +12,7 @@ from ._loads import KEYS, THERMAL, acts, nodal
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
 from ._opensees_path import PathOfModel
-from ._opensees_springs import add_springs
+from ._opensees_springs import add_hinges, add_springs, reactions
 from ._path import follow
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State, Vector,
                    cross, times, transposed)
@@ -23,7 +23,7 @@ REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.
 _STATICS = frozenset({"linear", "static", "compliance", "continuation"})
 _MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling", "motion"}
-_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | THERMAL | {"springs", "springs.from", "modal.about", "plane", "nodes.mass", "nodes.inertia"}
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, KEYS | THERMAL | {"springs", "springs.from", "members.release", "modal.about", "plane", "nodes.mass", "nodes.inertia"}
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
     "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
@@ -34,7 +34,7 @@ ELEMENTS = {
                                    " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
     "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}),
-                                     keys=KEYS | THERMAL | {"springs", "springs.from", "plane", "nodes.mass", "nodes.inertia"}),
+                                     keys=KEYS | THERMAL | {"springs", "springs.from", "members.release", "plane", "nodes.mass", "nodes.inertia"}),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-5  # [rad] larger rotations in space differ from sums of increments by more than 1e-5 of their value
@@ -83,10 +83,11 @@ class Corotational(Model):
             self._add_section(i, section, name, 1.0)
         self.base = ""  # the analysis whose last state the model is in
         tags = {section: i for i, section in enumerate(scene.sections, 1)}
+        ends = add_hinges(ops, scene, mesh, moved)
         for i, element in enumerate(mesh.elements, 1):
             s, tag, z, scale = element.member.section, 0, transposed(element.R)[2], 1.0
             if moved is not None:
-                u, v = (moved[k] for k in element.nodes)
+                u, v = (moved[k] for k in ends[i - 1])
                 z = [a + (b + c) / 2 for a, b, c in zip(z, cross(u[3:], z), cross(v[3:], z))]
                 scale = 1 + sum((b - a) * row[0] for a, b, row in zip(u, v, element.R)) / element.length
                 tag = len(tags) + i
@@ -98,7 +99,7 @@ class Corotational(Model):
                 constants = (scale * s.EA / E, E, G, scale * s.GIt / G, scale * s.EIy / E, scale * s.EIz / E, i)
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
-            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES and not self.moves else []))
+            ops.element(name, i, *ends[i - 1], *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES and not self.moves else []))
         add_springs(ops, scene, mesh, moved)
         self._add_supports()
         length = scene.length()
@@ -201,14 +202,12 @@ class Corotational(Model):
     def state(self, linear: bool) -> State:
         self.ops.reactions()
         u: dict[str, list[float | None]] = {}
-        reaction: dict[str, list[float | None]] = {}
         for name, number in self.mesh.node_of.items():
             moved = [float(x) for x in self.ops.nodeDisp(number)]
             turns = sorted(abs(x) for x in moved[3:])
             known = linear or turns[2] < _TURNS or turns[1] < 1e-9 * turns[2]
             u[name] = [x if known or i < 3 else None for i, x in enumerate(moved)]
-            reaction[name] = [float(x) for x in self.ops.nodeReaction(number)]
-        return State(u, reaction)
+        return State(u, reactions(self.ops, self.scene, self.mesh))
 
     def _compliance(self, analysis: Analysis) -> list[list[float]]:
         """Returns the compliance from the tangent of the last state. Released components get their reactions as loads."""
@@ -216,7 +215,7 @@ class Corotational(Model):
         ops, node = self.ops, self.mesh.node_of[analysis.raw["node"]]
         released = analysis.raw.get("released", [])
         ops.reactions()
-        forces = [float(x) for x in ops.nodeReaction(node)]
+        forces = reactions(ops, self.scene, self.mesh)[analysis.raw["node"]]
         ops.loadConst("-time", 0.0)
         ops.timeSeries("Constant", self.next_tag)
         ops.pattern("Plain", self.next_tag, self.next_tag)

@@ -5,6 +5,7 @@ import importlib.metadata
 import math
 from typing import Any
 
+from ._hinges import hinges, idle
 from ._loads import KEYS, THERMAL, acts, nodal, require_known
 from .data import COMPONENTS, Analysis, Answer, Element, Mesh, MeshElement, Model, Scene, State
 
@@ -12,7 +13,7 @@ NAME, PROGRAM, LICENCE = "pynite", "PyNite", "MIT"
 HOMEPAGE = "https://github.com/JWock82/Pynite"
 REQUIRES = ("PyNiteFEA==3.2.0", )
 ELEMENTS = {"frame": Element("straight Euler-Bernoulli frame element", analyses=frozenset({"linear"}),
-                             keys=KEYS | THERMAL | {"springs"})}
+                             keys=KEYS | THERMAL | {"springs", "members.release"})}
 _DEGREES = ("DX", "DY", "DZ", "RX", "RY", "RZ")
 _FORCES = ("FX", "FY", "FZ", "MX", "MY", "MZ")
 
@@ -48,9 +49,16 @@ class Frame(Model):
             self.model.add_member(f"e{i}", p, q, name, name)
             member = self.model.members[f"e{i}"]
             member.rotation = _angle(member, element)
+        released = dict[int, dict[str, bool]]()
+        for hinge in hinges(scene, mesh):
+            names = [f"{c[0].upper().replace('U', 'D')}{c[1]}{'ij'[hinge.end]}" for c in hinge.own]
+            released.setdefault(hinge.element, {}).update(dict.fromkeys(names, True))
+        for element_index, names_of in released.items():
+            self.model.def_releases(f"e{element_index}", **names_of)
+        loose = idle(scene)
         for own in scene.nodes.values():
             n = f"n{mesh.node_of[own.name]}"
-            self.model.def_support(n, *(c in own.hold or c in own.drive for c in COMPONENTS))
+            self.model.def_support(n, *(c in own.hold or c in own.drive or c in loose.get(own.name, ()) for c in COMPONENTS))
             held += len(own.hold | set(own.drive))
             for component, motion in own.drive.items():
                 self.model.def_node_disp(n, _DEGREES[COMPONENTS.index(component)], scene.motion_value(motion, 1))

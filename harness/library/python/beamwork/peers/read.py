@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _motion
+from ._hinges import check_hinges, idle
 from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section, Spring, times
 
 _KNOWN = {
@@ -150,6 +151,7 @@ def check(scene: Scene, element: Element, program: str) -> None:
         if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
             raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
     _check_springs(scene)
+    check_hinges(scene)
     for load in scene.loads:
         if load.kind == "temperature" and kinds != {"linear"}:
             raise Refused(f"temperature: drivers have {load.name} in linear analyses only")
@@ -180,6 +182,8 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
         return f"{lacks[0]}: the element does not model it"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
         return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
+    if q.raw.get("node") in (loose := idle(scene)) and q.raw.get("component") in loose[q.raw["node"]]:
+        return f"release: nothing depends on this rotation of {q.raw['node']}"
     if q.kind == "energy" and scene.springs:
         return "energy: drivers do not know that of springs"
     if analysis.kind == "motion":

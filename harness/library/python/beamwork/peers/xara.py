@@ -11,7 +11,7 @@ from typing import Any
 from ._loads import KEYS, THERMAL, nodal, require_known, vectors
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from ._opensees_path import PathOfFrame
-from ._opensees_springs import add_springs
+from ._opensees_springs import add_hinges, add_springs, reactions
 from ._path import follow
 from ._xara_buckling import buckling, moved_axis
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State, Vector
@@ -25,7 +25,7 @@ REQUIRES = (
 
 _STATICS = frozenset({"linear", "static", "compliance"})
 _OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
-_KEYS = KEYS | THERMAL | {"springs", "springs.from", "plane"}
+_KEYS = KEYS | THERMAL | {"springs", "springs.from", "members.release", "plane"}
 ELEMENTS = {
     "exact": Element(
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
@@ -189,6 +189,7 @@ class Frame(Model):
             held = self.scene.held_at(self.mesh.nodes[number])
             model.fix(number, *(int(c in held) for c in COMPONENTS))
         tags: dict[tuple[str, float], int] = {}
+        ends = add_hinges(model, self.scene, self.mesh, moved)
         for number, e in enumerate(self.mesh.elements, start=1):
             key = (e.member.section.name if moved is None else str(number), e.member.length)
             z, stretch = moved_axis(e, moved) if moved else ([row[2] for row in e.R], 1.0)
@@ -200,7 +201,7 @@ class Frame(Model):
             model.element(
                 "ForceFrame" if self.element == "force" else "ExactFrame",
                 number,
-                list(e.nodes),
+                ends[number - 1],
                 section=tags[key],
                 transform=number,
                 shear=int(self.element != "force" or all(map(math.isfinite, e.member.section.GA))),
@@ -325,10 +326,7 @@ class Frame(Model):
                 name: [float(x) for x in (*model.nodeDisp(number)[:3], *turns[name])]
                 for name, number in numbers.items()
             },
-            reaction={
-                name: [float(x) for x in model.nodeReaction(number)]
-                for name, number in numbers.items()
-            },
+            reaction=reactions(model, self.scene, self.mesh),
         )
 
     def _compliance_here(self, model: Any, node: str) -> Any:
@@ -339,7 +337,7 @@ class Frame(Model):
         if not driven:
             return self._inverse_at(model, number)
         model.reactions()
-        reaction = model.nodeReaction(number)
+        reaction = reactions(model, self.scene, self.mesh)[node]
         for dof in driven:
             model.remove("loadPattern", self.drives[number, dof][0])
         load = [float(reaction[d]) if d in driven else 0.0 for d in range(6)]
@@ -396,6 +394,8 @@ class Frame(Model):
             model = self.new()
             self.apply(model, [], scale)
             self.prepare(model, algorithm)
+            if algorithm == "Newton":
+                model.test("FixedNumIter", 5)
             if model.analyze(1) != 0:
                 raise Failed("the linear equations cannot be solved")
             model.reactions()
@@ -407,10 +407,8 @@ class Frame(Model):
         most = max(float(np.abs(v).max()) for v in u.values())
         small = 1e-5 / most if most > 0 else 1.0
         up, down = solved(small, "Newton"), solved(-small, "Newton")
-        reaction = {
-            name: (np.array(up.nodeReaction(n)) - np.array(down.nodeReaction(n))) / (2 * small)
-            for name, n in numbers.items()
-        }
+        above, below = (reactions(model, self.scene, self.mesh) for model in (up, down))
+        reaction = {name: (np.array(above[name]) - np.array(below[name])) / (2 * small) for name in numbers}
         return Answer(
             states=[
                 State(
