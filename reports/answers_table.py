@@ -15,8 +15,6 @@ import math
 import os
 import sys
 
-from markupsafe import Markup
-
 from reports import answers, data
 from reports.answers import LEVELS
 from reports.answers import LEVELS
@@ -207,12 +205,6 @@ def defect_of(verdicts):
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 
 
-def embedded(value):
-    """Returns JSON that can be embedded in a page because it contains neither the end of a script nor a comment."""
-    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
-    return Markup(text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e"))
-
-
 def write(site):
     cases = [c for c in site.cases if answers.judged(c.points[0])]
     keys = sorted({s.key for c in cases for s in c.points[0].series})
@@ -221,13 +213,15 @@ def write(site):
              for c in cases for quantity in asked_of(c.points[0])[:1]]
     unpriced = sorted({s.key for c in cases for s in c.points[0].series
                        for m in s.meshes if not m.priced and not s.unranked})
-    site.write("answers.html", "answers.html", table=table, unpriced=unpriced, timed=site.bench is not None,
-               points=embedded({"keys": keys, "cases": [points_of(c, keys) for c in cases]}))
+    site.write("answers.html", "answers.html", table=table, unpriced=unpriced, timed=site.bench is not None)
+    points = json.dumps({"keys": keys, "cases": [points_of(c, keys) for c in cases]}, separators=(",", ":"),
+                        allow_nan=False)
     found = rows(site.cases)
     first = {c.name: asked_of(c.points[0])[:1] for c in cases}
     together = [row for row in found if row["quantity"] in first[row["case"]]]
     for name, text in (("answers.csv", as_csv(together)),
-                       ("answers.json", as_json(found, site.about))):
+                       ("answers.json", as_json(found, site.about)),
+                       ("answers_points.js", f"window.answersPoints = {points};\n")):
         with open(os.path.join(site.folder, name), "w", encoding="utf-8") as out:
             out.write(text)
 

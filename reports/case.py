@@ -131,6 +131,7 @@ MOST_PANELS = 6  # largest number of panels in the figure of the other quantitie
 # Largest number of verdicts at the parameter points other than the first for which these points are on the page of the
 # case. With more verdicts, each of these points has a separate page.
 MOST_ROWS = 1500
+MOST_ON_PAGE = 30  # largest number of parameter points on one page
 
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
            "beside": [], "starred": False, "untimed": [], "left_out": []}
@@ -270,7 +271,7 @@ def rows_of(point):
 
 
 def own_pages(case):
-    return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
+    return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS or len(case.points) > MOST_ON_PAGE
 
 
 def page_of(case, index):

@@ -1,7 +1,7 @@
-// Answers for the tolerance that the reader enters, from the data in the page. The rule is that of harness/study/study.h.
+// Answers for the tolerance that the reader enters, from the data in answers_points.js. The rule is that of harness/study/study.h.
 "use strict";
 (() => {
-const data = JSON.parse(document.getElementById("points").textContent);
+const data = window.answersPoints; // answers_points.js
 const field = name => document.getElementById(name);
 const body = document.querySelector("table.reach tbody"), head = document.querySelector("table.reach thead tr");
 const make = (tag, words, parent, look) => {

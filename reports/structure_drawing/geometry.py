@@ -1,4 +1,3 @@
-import itertools
 import math
 from dataclasses import dataclass
 
@@ -171,11 +170,12 @@ def in_plane(normal, flat, shifts, turns):
 def openness(view, points):
     """Returns the smallest distance on paper between points that are separate in space, relative to the size of the
     picture."""
+    first, second = np.triu_indices(len(points), 1)
     flat = view(points)
-    apart = [(np.linalg.norm(flat[i] - flat[k]), np.linalg.norm(points[i] - points[k]))
-             for i, k in itertools.combinations(range(len(points)), 2)]
+    on_paper, space = (np.linalg.norm(p[first] - p[second], axis=1) for p in (flat, points))
     size = np.linalg.norm(np.ptp(points, axis=0))
-    return min((d for d, space in apart if space > 1e-3 * size), default=0) / size
+    apart = on_paper[space > 1e-3 * size]
+    return apart.min() / size if len(apart) else 0
 
 
 def choose_view(points, shifts, turns, solid):

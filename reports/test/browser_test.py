@@ -75,6 +75,33 @@ class Browser(ProgramTest):
         self.assertIsNotNone(out, done.stderr[-2000:])
         self.assertEqual(out.group(1).strip(), f"seen {len(pages)}")
 
+    def test_first_column_stays(self):
+        """At 390 pixels, a wide table scrolls below its first column, and no page is wider than the window."""
+        driver = self.site / "narrow.html"
+        driver.write_text("""<!DOCTYPE html><body><iframe width="390" height="800" src="papers.html"></iframe><pre id="out"></pre><script>
+addEventListener("load", () => {
+  const inner = document.querySelector("iframe").contentDocument, out = [];
+  for (const box of inner.querySelectorAll(".scroll")) {
+    if (box.scrollWidth <= box.clientWidth) continue;
+    const cell = [...box.querySelectorAll("tr")].find(row => row.children.length > 3 && !row.querySelector("[colspan]")).firstElementChild;
+    const before = cell.getBoundingClientRect().left;
+    box.scrollLeft = 80;
+    out.push(Math.abs(cell.getBoundingClientRect().left - before) < 2 && box.scrollLeft == 80 ? "fixed" : "moves");
+  }
+  const whole = inner.documentElement;
+  document.getElementById("out").textContent = [...new Set(out), whole.scrollWidth <= whole.clientWidth + 1 ? "fits" : "wider"].join(" ");
+});
+</script></body>""", encoding="utf-8")
+        try:
+            done = chromium(self.folder, "--virtual-time-budget=60000", "--dump-dom", driver.as_uri())
+        finally:
+            driver.unlink()
+        self.assertEqual(re.search(r'<pre id="out">(.*?)</pre>', done.stdout, re.S).group(1), "fixed fits")
+
+    def test_sizes_of_pages(self):
+        for page in self.site.glob("*.html"):
+            self.assertLess(page.stat().st_size, 400_000, page.name)
+
     def test_what_is_wrong_is_seen(self):
         page = self.site / "planted.html"
         page.write_text(
