@@ -70,6 +70,18 @@ const check_result *certificate_broken(const certificate *c)
     return NULL;
 }
 
+void certificate_violated_parts(const certificate *c, char *text, int size)
+{
+    int used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < CERTIFICATE_PARTS && used < size; i++) {
+        const int broken = checks_counted(&c->part[i].check_results, CHECK_FAILED);
+        if (broken > 0)
+            used += snprintf(text + used, (size_t)(size - used), "%s%d in '%s'",
+                             used > 0 ? ", " : "", broken, certificate_part_name(i));
+    }
+}
+
 static void run_part(certificate *of, int part)
 {
     certificate_part *p = &of->part[part];
@@ -343,7 +355,12 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
         first = own->measures.measure[i].points > first->points ? &own->measures.measure[i] : first;
     for (int i = 0; i < first->points; i++)
         fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
-    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order (decl.)" : "");
+    fputs(part == CHECKS_FAMILIES + 2 ? "  order (decl.)" : "", to);
+    if (checks_counted(&own->check_results, CHECK_FAILED) > 0) {
+        fputs("  ", to);
+        screen_put(to, look, SCREEN_BAD, "violated");
+    }
+    fputc('\n', to);
     if (own->measures.count == 0 && own->check_results.count == 1 && c->late != NULL)
         paragraph_write(to, fprintf(to, "    "), 4, own->check_results.check_result[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
@@ -368,6 +385,11 @@ static void write_verdict(FILE *to, screen look, const certificate *c)
         fprintf(to, ", %d checks", kept);
     fprintf(to, " on %d numbers; %d not applicable\n", certificate_compared(c),
             certificate_counted(c, CHECK_NOT_MADE));
+    if (broken > 0) {
+        char parts[CERTIFICATE_PARTS_TEXT];
+        certificate_violated_parts(c, parts, sizeof parts);
+        paragraph_printf(to, 0, 2, "violated: %s", parts);
+    }
     const int wrong_limit = measures_wrong_limits(&c->part[CHECKS_FAMILIES].measures);
     if (wrong_limit > 0)
         fprintf(to, "measured: %d state%s with a wrong limit\n", wrong_limit,

@@ -318,12 +318,14 @@ static void write_one(FILE *to, int latex, const certificate *c)
         ("changes due to superposed full turns and after closed cycles of deformation, 24 steps "
          "each")};
     static paper_table t;
-    char words[CELL];
+    char words[2 * CELL], parts[CERTIFICATE_PARTS_TEXT];
     write_about(to, latex, c);
+    certificate_violated_parts(c, parts, sizeof parts);
     snprintf(words, sizeof words,
-             "interface requirements %s, %d checks on %d numbers (beamwork %s, SHA-256 of the "
+             "interface requirements %s%s%s, %d checks on %d numbers (beamwork %s, SHA-256 of the "
              "element %.12s)",
-             certificate_holds(c) ? "satisfied" : "violated",
+             certificate_holds(c) ? "satisfied" : "violated (", parts,
+             certificate_holds(c) ? "" : ")",
              certificate_counted(c, CHECK_PASSED) + certificate_counted(c, CHECK_FAILED),
              certificate_compared(c), environment_version(), c->hash);
     begin(&t, latex, c, "requirements", words);

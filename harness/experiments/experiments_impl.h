@@ -154,6 +154,9 @@ const char *certificate_part_words(int part);
 /* Return the number of checks with this outcome, and the number of comparisons in all parts. */
 int certificate_counted(const certificate *, check_outcome);
 int certificate_compared(const certificate *);
+/* Writes the parts with failed checks, for example "3 in 'states', 4 in 'orders'". */
+enum { CERTIFICATE_PARTS_TEXT = 400 };
+void certificate_violated_parts(const certificate *, char *text, int size);
 /* Returns the first failed check; NULL: none. */
 const check_result *certificate_broken(const certificate *);
 

@@ -165,7 +165,7 @@ class Tables(Tested):
 
     def test_violations(self):
         found = self.forms(FAULTS["energy"][0], code=1)
-        self.assertIn("interface requirements violated", found["markdown"])
+        self.assertRegex(found["markdown"], r"interface requirements violated \((\d+ in '\w+', )*\d+ in 'energy'")
         self.assertIn("* violated: stress: sigma 1 is", found["markdown"])
         self.assertIn("% violated: stress: sigma 1 is", found["latex"])
         self.assertRegex(found["latex"], r"stress and C derive .* & violated ")

@@ -291,6 +291,8 @@ class Measured(Tested):
         self.assertIn("correct the stiffness of the section (probably G It)", found[wrong[0]]["words"])
         out = self.answered("element-test", "--element", self.folder / "mine.so", code=1).stdout
         self.assertIn("measured: 1 state with a wrong limit", out)
+        self.assertRegex(out, r"\n  violated: \d+ in 'states'")
+        self.assertRegex(out, r"\n  states .*  violated\n")
         self.assertIn("correct the stiffness of the section (probably G It)", " ".join(out.split()))
 
     def test_units(self):
