@@ -70,6 +70,7 @@ class _Steps:
         self.limit = limit
         self.known: dict[int, tuple[dict[str, float], str]] = {}
         self.before: dict[str, Any] = {}  # values of the mesh before
+        self.searched = set[int]()  # meshes
 
     def of(self, n: int, scene: Scene, motions: list[Analysis], solved: Any) -> tuple[dict[str, float], str]:
         """Returns the steps for n elements, and a sentence about them. solved: values with given steps."""
@@ -107,6 +108,9 @@ def _solved(peer: Any, scene: Scene, name: str, n: int, known: _Steps) -> dict[s
         return _values(part, element, answers)["values"]
 
     steps, note = known.of(n, scene, [group[-1] for group in motions], values)
+    if n not in known.searched and any(a.kind == "continuation" for group in groups for a in group):
+        _once(peer, scene, name, mesh, groups)  # finds the steps with which the path can be followed
+    known.searched.add(n)
     begun, setup, answers, model = time.perf_counter(), math.inf, dict[str, Answer](), Model()
     took: dict[str, float] = {}
     while not answers or time.perf_counter() - begun < ROUND:
