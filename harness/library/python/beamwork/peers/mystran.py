@@ -22,7 +22,7 @@ ELEMENTS = {
         "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
         offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
-        keys=KEYS | THERMAL | {"springs", "springs.from", "members.release", "plane"},
+        keys=KEYS | THERMAL | {"springs", "springs.from", "members.release", "nodes.mass", "nodes.inertia", "plane"},
     ),
 }
 
@@ -166,9 +166,15 @@ class Bars(Model):
         require_plain_mass(self.scene)
         rigid = rigid_motions(self.scene, self.mesh)
         cards = [_card("EIGRL", 20, None, None, self._count(analysis))]
-        for number, tensor in nodal_inertia(self.mesh, lambda s: s.rho_I).items():
+        tensors, masses = nodal_inertia(self.mesh, lambda s: s.rho_I), dict[int, float]()
+        for node in self.scene.nodes.values():  # bodies
+            number = self.mesh.node_of[node.name]
+            xx, yy, zz, xy, yz, zx = node.raw.get("inertia", (0.0, ) * 6)
+            masses[number] = float(node.raw.get("mass", 0))
+            tensors[number] = [[a + b for a, b in zip(row, more)] for row, more in zip(tensors[number], ((xx, xy, zx), (xy, yy, yz), (zx, yz, zz)))]
+        for number, tensor in tensors.items():
             terms = [float(tensor[i][k]) * (1 if i == k else -1) for i in range(3) for k in range(i + 1)]
-            cards.append(_card("CONM2", 900000 + number, number + 1, 0, 0.0, None, None, None, None, *terms))
+            cards.append(_card("CONM2", 900000 + number, number + 1, 0, masses.get(number, 0.0), None, None, None, None, *terms))
         found = self._eigenvalues(self._run(103, "METHOD = 20\n", "".join(cards)), 4)
         return Answer(frequencies=[0.0] * rigid + found[rigid:], iterations=1)
 

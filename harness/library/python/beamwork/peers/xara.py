@@ -25,7 +25,7 @@ REQUIRES = (
 
 _STATICS = frozenset({"linear", "static", "compliance"})
 _OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
-_KEYS = KEYS | THERMAL | {"springs", "springs.from", "members.release", "plane"}
+_KEYS = KEYS | THERMAL | {"springs", "springs.from", "members.release", "nodes.mass", "nodes.inertia", "plane"}
 ELEMENTS = {
     "exact": Element(
         "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
@@ -430,7 +430,12 @@ class Frame(Model):
         if rigid:
             raise Refused("modal: the eigenvalue solver of xara requires supports that hold the structure")
         model = self.new()
+        bodies = {self.mesh.node_of[node.name]: node.raw for node in self.scene.nodes.values()}
         for number, inertia in diagonal_inertia(self.mesh, lambda s: s.rho_I, PROGRAM).items():
-            model.mass(number, (0.0, 0.0, 0.0, *inertia))
+            raw = bodies.get(number, {})
+            own = raw.get("inertia", (0.0, ) * 6)
+            if any(own[3:]):
+                raise Refused("inertia: nodes of xara have no products of inertia")
+            model.mass(number, (*[float(raw.get("mass", 0))] * 3, *(a + float(b) for a, b in zip(inertia, own))))
         squares = model.eigen(max(asked, default=0) + 1)
         return Answer(frequencies=[math.sqrt(w) / (2 * math.pi) for w in squares if w > 0])
