@@ -86,5 +86,39 @@ class Examples(ModuleTest):
         self.same((-turned[2], turned[0], turned[1], turned[3]), along_x, 1e-5)
 
 
+class ExudynInSpace(ModuleTest):
+    """Exudyn's test model geometricallyExactBeamTest.py: the sum of the lengths of the tip displacements of five cantilevers, 8
+    elements each. The model states 1.012822053539261, and gives 1.0128212332805508 with Exudyn 1.13.6."""
+
+    def tip(self, E, nu, size, length, factors, force=(0, 0, 0), moment=(0, 0, 0)):
+        h, w = size
+        G, Iy, Iz = E / 2 / (1 + nu), h * w**3 / 12, w * h**3 / 12
+        made = bw.Scene("cantilever")
+        made.sections["bar"] = {"stiffness": [E * h * w, G * h * w * factors[1], G * h * w * factors[2], G * (Iy + Iz) * factors[0],
+                                              E * Iy, E * Iz], "mass": [1] * 6}
+        made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all"}, {"at": [length, 0, 0]}
+        made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0]}
+        made.loads["force"], made.loads["moment"] = {"force": force, "on": "tip"}, {"moment": moment, "on": "tip"}
+        made.analyses["bent"] = {"static": {"stations": [1]}}
+        for c in ("ux", "uy", "uz"):
+            made.quantities[c] = {"displacement": {"analysis": "bent", "node": "tip", "component": c}, "unit": "m"}
+        place = self.folder / "scene.yaml"
+        made.write(place)
+        data = json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
+        found = peers.solve(data, "exudyn", "exact_3d", [8], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        self.assertIn("values", found.runs[0], found.runs[0])
+        return math.hypot(*found.runs[0]["values"].values())
+
+    def test_sum(self):
+        ks = 10 * 1.3 / (12 + 11 * 0.3)
+        steel, princeton = (2.07e11, 0.3), (71.7e9, 0.31, (12.3777e-3, 3.2024e-3), 0.508, (0.198, 1, 1))
+        total = sum(self.tip(*steel, (0.5, 0.1), 2, (1, ks, ks), (0, f * 0.5**3, 0)) for f in (5e5, 5e8))
+        total += self.tip(*steel, (0.2, 0.4), 2, (0.5768, 0.8331, 0.7961), moment=(0.5e6, 2e6, 0))
+        total += sum(self.tip(*princeton, (0, -f * math.sqrt(0.5), f * math.sqrt(0.5))) for f in (8.896, 13.345))
+        self.assertAlmostEqual(total, 1.0128212332805508, delta=1e-9)
+
+
 if __name__ == "__main__":
     unittest.main()
