@@ -112,13 +112,23 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-static status add_files(digest *plan, const command_line *l, fault *f)
+/* Adds the length and the checksum of the reference values, which are checked when they are
+ * read. */
+static status add_packed(digest *plan, fault *f)
 {
     const truths_options usual = {.packed = NULL};
+    char line[CHECKSUM_LENGTH + 1];
+    TRY(checksum_read(user_tables_packed(&usual), line, f));
+    digest_add_text(plan, line);
+    return STATUS_OK;
+}
+
+static status add_files(digest *plan, const command_line *l, fault *f)
+{
     const int built_in = given_value(l, "scene") == NULL || given_value(l, "built-in") != NULL;
     const given_option *g;
     if (built_in && given_value(l, "truths") == NULL)
-        TRY(add_file(&plan, user_tables_packed(&usual), f));
+        TRY(add_packed(plan, f));
     for (int i = 0; (g = given_next(l, OPTION_INPUT, &i)) != NULL;)
         if ((g->option->traits & OPTION_VERDICT) == 0)
             TRY(files_named(g->value, add_file, &plan, f));

@@ -220,6 +220,17 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
 }
 
+status checksum_read(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f)
+{
+    FILE *from = fopen(path, "rb");
+    const int good = from != NULL && fseek(from, -CHECKSUM_LENGTH, SEEK_END) == 0 &&
+                     fread(out, 1, CHECKSUM_LENGTH, from) == CHECKSUM_LENGTH;
+    if (from != NULL)
+        fclose(from);
+    out[good ? CHECKSUM_LENGTH : 0] = '\0';
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path);
+}
+
 /* Computes the checksum of all bytes except the last CHECKSUM_LENGTH bytes, which are copied to
  * `tail`. Returns the length of the file without `tail`; -1: the file is too short. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])

@@ -536,6 +536,9 @@ void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]
 /* Computes the checksum line for a file that does not contain one. FAULT: the file cannot be
  * read. */
 status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
+/* Reads the last line of a file without checking it. FAULT: the file cannot be read, or is
+ * shorter. */
+status checksum_read(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
 /* Checks the last line of a file. FAULT: the file is missing, is not a beamwork file, or has been
  * altered. */
 status checksum_check(const char *path, fault *f);
