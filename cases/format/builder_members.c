@@ -230,6 +230,23 @@ void builder_analyses(builder *b)
     }
 }
 
+/* Returns what to request instead from a harmonic analysis; "": there is nothing. */
+static const char *harmonic_remedy(scene_quantity_kind kind)
+{
+    switch (kind) {
+    case SCENE_DEFLECTION:
+        return "; or divide the member at this position by a node, and request its response";
+    case SCENE_REACTION:
+        return "; or request 'response' with 'of: reaction'";
+    case SCENE_INTERNAL:
+        return "; or divide the member at two nodes in the same position, join them by a stiff "
+               "spring, and multiply its stiffness by the response of one node relative to the "
+               "other (key 'from')";
+    default:
+        return "";
+    }
+}
+
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q)
 {
     const scene_analysis *a = &what->b->scene->analysis[q->analysis];
@@ -240,14 +257,11 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
             snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                      scene_analysis_name((scene_analysis_kind)k));
         }
-    document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
-                     "analysis '%s' (%s) has no %s; name an analysis of a kind that has one: %s%s",
-                     a->name, scene_analysis_name(a->kind), key, names,
-                     a->kind != SCENE_HARMONIC || !scene_reads_forces(q) ? ""
-                     : q->what.kind == SCENE_DEFLECTION
-                         ? "; or add a node there, and request its response"
-                         : "; or put a stiff spring between two nodes there, and multiply its "
-                           "stiffness by their relative response (key 'from')");
+    document_mistake(
+        what->b->mistakes, document_find(what->map, "analysis"), 0,
+        "analysis '%s' (%s) has no quantity '%s'; name an analysis of a kind that has it: %s%s",
+        a->name, scene_analysis_name(a->kind), key, names,
+        a->kind == SCENE_HARMONIC ? harmonic_remedy(q->what.kind) : "");
 }
 
 /* Maximum number of characters of an expression of t after names have been replaced by values. */

@@ -251,8 +251,11 @@ static void read_overs(const fields *what, scene_quantity *q)
     if (n != NULL && (q->envelope == SCENE_ENVELOPE_NONE || count == 0))
         document_mistake(what->b->mistakes, n, 0,
                          "combinations: this key lists the combinations of an envelope; %s",
-                         count == 0 ? "name a combination, or remove the key for all combinations"
-                                    : "add 'envelope', or give one 'combination'");
+                         q->envelope == SCENE_ENVELOPE_NONE
+                             ? count == 0 ? "add 'envelope', or remove the key"
+                                          : "add 'envelope', or give one 'combination'"
+                             : "name a combination, or remove the key to include all "
+                               "combinations");
     for (int i = 0; i < count; i++) {
         const int over =
             fields_entry_of(what, n->kind == DOCUMENT_LIST ? n->item[i] : n, SCENE_COMBINATIONS);

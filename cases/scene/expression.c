@@ -361,8 +361,8 @@ static status read_literal(reader *r)
         return WRONG(r, from, "'%s' is too large; the largest number is 1.8e308", digits);
     if (here(r) != '\0' && expression_name_length(r->text + r->at) > 0)
         return WRONG(r, r->at,
-                     "'%.20s' follows a number; numbers have no unit: write 20e-3 for 20 mm in SI "
-                     "units, 45*deg for 45 degrees, and * between factors",
+                     "'%.20s' follows a number; numbers have no unit: write 20 mm as 20e-3 (with "
+                     "'units: mm, N, MPa' as 20), 45 degrees as 45*deg, and * between factors",
                      r->text + r->at);
     return emit(r, JET_NUMBER, value, 1);
 }

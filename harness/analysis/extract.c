@@ -70,7 +70,9 @@ static void under_one(const analysis_context *c, const scene_quantity *q, const 
     fault f = {"out of memory for stresses"};
     status outcome = sigma != NULL ? STATUS_OK : STATUS_FAULT;
     if (outcome == STATUS_OK && from.x == NULL)
-        outcome = fault_set(&f, STATUS_FAULT, "the load case was not solved");
+        outcome =
+            fault_set(&f, STATUS_FAULT, "%s was not solved",
+                      acting != 0 ? scene_acting_called(c->scene, acting).text : "the analysis");
     if (outcome == STATUS_OK && scene_reads_forces(q))
         outcome = linear_whole_stresses(&own.eq, from.x, 1, sigma, &f);
     if (outcome == STATUS_OK)

@@ -321,7 +321,8 @@ static void close_case(void *group)
 }
 
 static const verb_option both[] = {
-    {"set", 's', "NAME=VALUE", "value of a case parameter, in SI units; may be repeated",
+    {"set", 's', "NAME=VALUE",
+     "value of a parameter, in the unit that 'beamwork list' shows; may be repeated",
      .member = offsetof(case_options, set), .traits = OPTION_REPEATS, .read = read_assignment},
     {"scene", 0, "FILE", "your scene file (YAML) instead of a case",
      .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},

@@ -20,13 +20,14 @@ static status count_grid(design *d, fault *f)
         const sweep_axis *a = &d->axis[i];
         if (a->count == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: the number of parts is missing; write %s=%g..%g/N, or "
-                             "--design sobol --points N",
-                             a->of->name, a->of->name, a->from, a->to);
+                             "--vary %s: the number of parts is missing; write %s=%g..%g/N%s, or "
+                             "add --design sobol --points N",
+                             a->of->name, a->of->name, a->from, a->to,
+                             a->kind == AXIS_LOG ? ":log" : "");
         if (d->points > DESIGN_MOST_POINTS / a->count)
             return fault_set(f, STATUS_REFUSED,
                              "the grid has more than %d points; give fewer parts or values, or "
-                             "--design sobol --points N",
+                             "ranges without parts and --design sobol --points N",
                              DESIGN_MOST_POINTS);
         d->points *= a->count;
     }
@@ -269,10 +270,11 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
     snprintf(one, sizeof one, "%.*s", (int)(length < TEXT ? length : TEXT - 1), text);
     if (length > 0 && length < TEXT && number_read(one, &end, out) && *end == '\0')
         return STATUS_OK;
+    char unit[PARAMETER_UNIT_WORDS];
+    parameter_unit_words(a->of, unit);
     return fault_set(f, STATUS_REFUSED,
-                     "--vary %s: '%.60s' is not a number; give values in SI units, without the "
-                     "unit, such as %s=0.1..0.5/4",
-                     a->of->name, one, a->of->name);
+                     "--vary %s: '%.60s' is not a number; write %s=A..B/N with numbers A and B%s",
+                     a->of->name, one, a->of->name, unit);
 }
 
 static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
@@ -344,7 +346,7 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
     int any[CASE_MAX_PARAMETERS] = {0};
     char name[TEXT], shown[ASSIGNMENT_SHOWN];
     const size_t length = strcspn(text, "=");
-    assignment_shown(&list, shown);
+    parameters_shown(type, shown);
     *out = (sweep_axis){.index = -1};
     if (length == 0 || length > 60 || text[length] == '\0' || text[length + 1] == '\0')
         return fault_set(f, STATUS_REFUSED,

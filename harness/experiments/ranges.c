@@ -34,9 +34,8 @@ static status add_axis(parameter_ranges *r, const char *text, fault *f)
 
 static status read_axes(parameter_ranges *r, fault *f)
 {
-    const assignment_list list = parameters_list(r->request.type);
     char shown[ASSIGNMENT_SHOWN];
-    assignment_shown(&list, shown);
+    parameters_shown(r->request.type, shown);
     if (r->request.varies == 0)
         return fault_set(f, STATUS_REFUSED,
                          "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' "

@@ -88,7 +88,7 @@ static status keep_running(parameter_ranges *r, const survey_selected *w, fault 
     if (kept > 0 && r->quantities > 0)
         return STATUS_OK;
     return w->select != NULL
-               ? narrow_to_nothing(w->select, r->request.type->name, f)
+               ? narrow_to_nothing(w->select, r->request.type, f)
                : fault_set(f, STATUS_REFUSED,
                            "%.60s has no single-valued quantity that a formulation can compute; "
                            "choose another case",

@@ -41,6 +41,10 @@ enum { ASSIGNMENT_SHOWN = 256 };
  * shell where necessary. */
 void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
 
+/* Writes the words " in UNIT, without the unit", or "" for a number without a unit. */
+enum { PARAMETER_UNIT_WORDS = 80 };
+void parameter_unit_words(const parameter_type *, char out[PARAMETER_UNIT_WORDS]);
+
 enum { ASSIGNMENT_VALUE = 64 };
 
 /* Sets "NAME=VALUE", where VALUE is a number in its range or the name of a choice. *index: receives
@@ -182,6 +186,8 @@ int damping_scale(int n, const double C[], const double V[], double B[]);
 enum { PARAMETERS_TEXT = 512 };
 
 assignment_list parameters_list(const case_type *c);
+/* Like assignment_shown, for a case or a scene file. */
+void parameters_shown(const case_type *c, char out[ASSIGNMENT_SHOWN]);
 int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
 /* Sets a parameter. assignment: "NAME=VALUE". */

@@ -94,10 +94,18 @@ int assignment_value(const parameter_type *p, const char *text, double *value)
     return number_read(text, &end, value) && *end == '\0';
 }
 
+void parameter_unit_words(const parameter_type *p, char out[PARAMETER_UNIT_WORDS])
+{
+    const int plain = p->unit[0] == '\0' || strcmp(p->unit, "1") == 0;
+    snprintf(out, PARAMETER_UNIT_WORDS, plain ? "" : " in %.40s, without the unit", p->unit);
+}
+
 static status set_value(const assignment_list *l, const parameter_type *p, const char *text,
                         double *value, fault *f)
 {
     double number;
+    char unit[PARAMETER_UNIT_WORDS];
+    parameter_unit_words(p, unit);
     if (!assignment_value(p, text, &number))
         return p->choices != NULL
                    ? fault_set(f, STATUS_REFUSED,
@@ -105,8 +113,8 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
                                p->name, l->owner, text, p->choices)
                    : fault_set(f, STATUS_REFUSED,
                                "%s %s of %s: '%.60s' is not a finite number, or is too small; give "
-                               "a value in SI units, without the unit",
-                               l->what, p->name, l->owner, text);
+                               "a number%s",
+                               l->what, p->name, l->owner, text, unit);
     if (p->choices == NULL) {
         const int plain = strcmp(p->unit, "1") == 0, flag = plain && p->min == 0 && p->max == 1;
         if (number < p->min || number > p->max)
@@ -241,6 +249,12 @@ assignment_list parameters_list(const case_type *c)
                             .separator = ';'};
     memcpy(list.part, c->parameters, sizeof list.part);
     return list;
+}
+
+void parameters_shown(const case_type *c, char out[ASSIGNMENT_SHOWN])
+{
+    const assignment_list list = parameters_list(c);
+    assignment_shown(&list, out);
 }
 
 int parameters_count(const case_type *c)

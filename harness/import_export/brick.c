@@ -29,10 +29,7 @@ status brick_init(brick *out, const scene *s, int member, int along, int first_n
     const scene_member *m = &s->member[member];
     section constants;
     TRY(scene_constants(s, m->section, &constants, f));
-    fault why = {""};
-    if (face_of(&s->section[m->section], &constants, &out->face, &why) != STATUS_OK)
-        return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_MEMBERS, member).text,
-                         why.text);
+    TRY(face_of(&s->section[m->section], &constants, &out->face, f));
     double x[3], squared = 0;
     for (int i = 0; i < 3; i++) {
         out->origin[i] = s->node[m->p].position[i];
@@ -302,7 +299,8 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     for (int i = 0; i < spec->walls; i++) {
         if (axis_of(spec, i) < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "wall %d is oblique, but only walls along y and z of the section can "
+                             "wall %d (0: the first wall) is oblique, but only walls along y and z "
+                             "of the section can "
                              "be written as solids; change the wall",
                              i);
         strips[i] = strip_of(spec, i);

@@ -191,10 +191,13 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
         if (strcmp(s->quantity[i].name, row->quantity) == 0)
             return &s->quantity[i];
     const char *near = choice_nearest(row->quantity, quantity_name, s);
-    mistakes_add(b->m, line_of(b, row), 1, "%.40s has no quantity '%.60s'%s%s%s",
-                 b->set->sweep.point[b->point].type->name, row->quantity,
-                 near != NULL ? "; did you mean '" : "; 'beamwork list CASE' shows the quantities",
-                 near != NULL ? near : "", near != NULL ? "'?" : "");
+    const case_type *type = b->set->sweep.point[b->point].type;
+    char shown[ASSIGNMENT_SHOWN];
+    parameters_shown(type, shown);
+    mistakes_add(b->m, line_of(b, row), 1,
+                 "%.40s has no quantity '%.60s'%s%s%s'beamwork list %.170s' shows the quantities",
+                 type->name, row->quantity, near != NULL ? "; did you mean '" : "",
+                 near != NULL ? near : "", near != NULL ? "'? " : "; ", shown);
     return NULL;
 }
 

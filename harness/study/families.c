@@ -460,10 +460,12 @@ status narrow_check_words(const sweep_point *p, const char *select, const select
     const char *near = choice_nearest(word, quantity_at, &p->scene);
     if (near == NULL)
         return select_all_met(select, words, f);
+    char shown[ASSIGNMENT_SHOWN];
+    parameters_shown(p->type, shown);
     return fault_set(f, STATUS_REFUSED,
                      "selection '%.60s': the name '%.60s' is unknown; did you mean '%s'? 'beamwork "
-                     "list %.60s' shows the names",
-                     select, word, near, p->type->name);
+                     "list %.170s' shows the names",
+                     select, word, near, shown);
 }
 
 status sweep_unsupported(const char *key, const char *missing, const char *name, fault *f)
@@ -474,12 +476,14 @@ status sweep_unsupported(const char *key, const char *missing, const char *name,
                      key, missing, name);
 }
 
-status narrow_to_nothing(const char *select, const char *name, fault *f)
+status narrow_to_nothing(const char *select, const case_type *type, fault *f)
 {
+    char shown[ASSIGNMENT_SHOWN];
+    parameters_shown(type, shown);
     return fault_set(f, STATUS_REFUSED,
-                     "-k '%.100s' selects no quantity of %.60s; 'beamwork list %.60s' shows the "
+                     "-k '%.100s' selects no quantity of %.60s; 'beamwork list %.170s' shows the "
                      "quantities",
-                     select, name, name);
+                     select, type->name, shown);
 }
 
 static status narrow(sweep *s, const char *select, kept *k, fault *f)
@@ -490,7 +494,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(narrow_check_words(&s->point[k->point], select, &words, f));
     drop(s, k);
     const sweep_point *p = &s->point[k->point];
-    return p->scene.quantities > 0 ? STATUS_OK : narrow_to_nothing(select, p->type->name, f);
+    return p->scene.quantities > 0 ? STATUS_OK : narrow_to_nothing(select, p->type, f);
 }
 
 status narrow_to(sweep *s, const char *select, fault *f)

@@ -762,8 +762,8 @@ status narrow_check_words(const sweep_point *p, const char *select, const select
 /* Reports that formulation `key` does not support the physics `missing` of the case `name`. Returns
  * REFUSED. */
 status sweep_unsupported(const char *key, const char *missing, const char *name, fault *f);
-/* Reports that the selection contains no quantity of the case `name`. Returns REFUSED. */
-status narrow_to_nothing(const char *select, const char *name, fault *f);
+/* Reports that the selection contains no quantity of the case. Returns REFUSED. */
+status narrow_to_nothing(const char *select, const case_type *, fault *f);
 /* Like narrow_to, for a scene before planning. If no formulation has been chosen (type NULL), words
  * that may be names of formulations have no effect. */
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,

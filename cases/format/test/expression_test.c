@@ -64,7 +64,7 @@ static void check_mistakes(const scope *names)
                {"3/1*/2", 14, "'/' where"},
                {"1/(2-2)", 11, "division by zero"},
                {"lenght*2", 10, "did you mean 'length'"},
-               {"20 mm", 13, "20 mm in SI units"},
+               {"20 mm", 13, "write 20 mm as 20e-3"},
                {"3pi", 11, "* between factors"},
                {"20e-3m", 15, "numbers have no unit"},
                {"(1+2", 10, "not closed"},

@@ -566,7 +566,7 @@ quantities:
         for text, words in (
                 (BEAM % ("hold: all", "", "", "", held), "a force along a fixed or driven component of node root has no effect"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
-                 "put a stiff spring between two nodes there"),
+                 "divide the member at two nodes in the same position, join them by a stiff spring"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
                  "not_converged|unstable"),
                 (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give zero or positive"),

@@ -244,7 +244,7 @@ static void axis_tests(void)
     is_refused("width=1..20/3", "outside its range");
     is_refused("width=1..11/3", "outside its range");
     is_refused("width=1,20", "outside its range");
-    is_refused("width=1mm..2/3", "in SI units, without the unit");
+    is_refused("width=1mm..2/3", "write width=A..B/N with numbers A and B in m, without the unit");
     is_refused("width=1..2/2.5", "whole number");
     is_refused("width=1..2/0", "whole number");
     is_refused("width=1..1/2", "a single value");

@@ -99,7 +99,7 @@ class Decks(ExportTest):
         plain = cantilever(1.0)
         wrong = {
             "warp": plain.replace(", warping: fixed", ""),
-            "wall 0 is oblique": plain.replace(
+            "member bar: wall 0 (0: the first wall) is oblique": plain.replace(
                 RECTANGLE, "points: {a: [0, 0], b: [0.1, 0.1], c: [0.1, 0.2]}, walls: [{from: a, "
                 "to: b, thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}]"),
             "remove 'given'": plain.replace(RECTANGLE, CHANNEL + ", given: {Iw: 1e-8}"),
