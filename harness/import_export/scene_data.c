@@ -66,6 +66,57 @@ static void add_physics(const scene *s, json_t *root)
     json_object_set_new(root, "physics", words);
 }
 
+static json_t *constants_of(const section *c)
+{
+    const struct {
+        const char *name;
+        double value;
+    } constant[] = {{"E", c->young},
+                    {"G", c->shear_modulus},
+                    {"density", c->density},
+                    {"A", c->A},
+                    {"Iy", c->Iy},
+                    {"Iz", c->Iz},
+                    {"It", c->It},
+                    {"Iw", c->Iw},
+                    {"ys", c->ys},
+                    {"zs", c->zs},
+                    {"Ip", c->Ip},
+                    {"wagner_y", c->wagner_y},
+                    {"wagner_z", c->wagner_z},
+                    {"wagner_torque", c->wagner_torque}};
+    json_t *one = json_object();
+    for (size_t k = 0; k < sizeof constant / sizeof *constant; k++)
+        json_object_set_new(one, constant[k].name, json_real(constant[k].value));
+    json_object_set_new(one, "F", matrix(3, 3, c->F));
+    if (c->matrices) {
+        json_object_set_new(one, "stiffness", matrix(6, 6, c->stiffness));
+        json_object_set_new(one, "mass", matrix(6, 6, c->mass));
+    }
+    return one;
+}
+
+enum { STATIONS = 128 }; /* intervals between the sections of a tapered member in the data */
+
+/* Adds the sections of a tapered member at equal distances, and the angles of their principal axes.
+ */
+static status add_taper(const scene *s, const scene_member *m, json_t *line, fault *f)
+{
+    json_t *sections = json_array(), *angles = json_array();
+    json_object_set_new(line, "sections", sections);
+    json_object_set_new(line, "angles", angles);
+    for (int i = 0; i <= STATIONS; i++) {
+        section_spec spec;
+        section c;
+        section_taper_at(&s->section[m->section], &s->section[m->section_q], (double)i / STATIONS,
+                         &spec);
+        TRY(section_compute(&spec, &c, f));
+        json_array_append_new(sections, constants_of(&c));
+        json_array_append_new(angles, json_real(c.axes_angle));
+    }
+    return STATUS_OK;
+}
+
 /* Adds the axis of each member, in the order of the file: the position and the triad of the
  * principal axes at its start, and its length and curvatures. */
 static status add_lines(const scene *s, json_t *root, fault *f)
@@ -77,9 +128,12 @@ static status add_lines(const scene *s, json_t *root, fault *f)
         member_arc a;
         TRY(scene_constants(s, s->member[i].section, &constants, f));
         TRY(member_arc_of(s, i, constants.axes_angle, &a, f));
-        json_array_append_new(lines, json_pack("{s:o, s:o, s:f, s:o}", "start", numbers(3, a.start),
-                                               "axes", matrix(3, 3, a.R), "length", a.length,
-                                               "curvature", numbers(3, a.k)));
+        json_t *line =
+            json_pack("{s:o, s:o, s:f, s:o}", "start", numbers(3, a.start), "axes",
+                      matrix(3, 3, a.R), "length", a.length, "curvature", numbers(3, a.k));
+        json_array_append_new(lines, line);
+        if (scene_member_tapers(&s->member[i]))
+            TRY(add_taper(s, &s->member[i], line, f));
     }
     return STATUS_OK;
 }
@@ -91,32 +145,7 @@ static status add_sections(const scene *s, json_t *root, fault *f)
     for (int i = 0; i < s->sections; i++) {
         section c;
         TRY(scene_constants(s, i, &c, f));
-        const struct {
-            const char *name;
-            double value;
-        } constant[] = {{"E", c.young},
-                        {"G", c.shear_modulus},
-                        {"density", c.density},
-                        {"A", c.A},
-                        {"Iy", c.Iy},
-                        {"Iz", c.Iz},
-                        {"It", c.It},
-                        {"Iw", c.Iw},
-                        {"ys", c.ys},
-                        {"zs", c.zs},
-                        {"Ip", c.Ip},
-                        {"wagner_y", c.wagner_y},
-                        {"wagner_z", c.wagner_z},
-                        {"wagner_torque", c.wagner_torque}};
-        json_t *one = json_object();
-        for (size_t k = 0; k < sizeof constant / sizeof *constant; k++)
-            json_object_set_new(one, constant[k].name, json_real(constant[k].value));
-        json_object_set_new(one, "F", matrix(3, 3, c.F));
-        if (c.matrices) {
-            json_object_set_new(one, "stiffness", matrix(6, 6, c.stiffness));
-            json_object_set_new(one, "mass", matrix(6, 6, c.mass));
-        }
-        json_array_append_new(sections, one);
+        json_array_append_new(sections, constants_of(&c));
     }
     return STATUS_OK;
 }

@@ -54,6 +54,13 @@ class SceneData(ProgramTest):
         np.testing.assert_allclose(np.array(arc["axes"])[:, 0], [0, 1, 0], atol=1e-12)
         np.testing.assert_allclose(arc["curvature"], [0, 0, 1])
 
+    def test_taper(self):
+        """A tapered member must have its sections at equal distances; here a wedge, half as thick at its tip."""
+        sections = self.data("tapered_cantilever")["lines"][0]["sections"]
+        thickness = 0.02 * (1 - np.linspace(0, 0.5, len(sections)))
+        np.testing.assert_allclose([s["Iz"] for s in sections], 0.03 * thickness**3 / 12, rtol=1e-12)
+        self.assertTrue(all("sections" not in line for line in self.data("bend_45")["lines"]))
+
     def test_parameters_and_physics(self):
         got = self.data("bend_45")
         self.assertEqual(got["of"], "bend_45")

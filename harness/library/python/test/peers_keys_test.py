@@ -1,5 +1,6 @@
 """Keys of scene files that drivers of other programs read: small scenes with closed forms. Every element that reads the key must give
 these values. Programs that are not installed are skipped by name."""
+import math
 import unittest
 
 import numpy as np
@@ -102,7 +103,21 @@ def pinned():
     return made, {"root Ruy": -6 * L / 2, "root Rrz": 0.0, "tip Ruy": -6 * L / 2}
 
 
-CASES = {"release": ("members.release", propped), "pinned": ("members.release", pinned), "springs": ("springs", sprung), "gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
+def tapered(linear):
+    """A wedge, half as thick at its tip as at its root. linear: with an axial force that would stiffen it."""
+    made = cantilever()
+    for name, thickness in (("bar", 0.02), ("thin", 0.01)):
+        made.sections[name] = {"rectangle": {"width": 0.03, "thickness": thickness}, "given": {"Iw": 0}, "young": E, "shear_modulus": G}
+    made.members["bar"].update(section=["bar", "thin"])
+    made.loads["F"] = {"force": [50.0, 0, 0], "on": "tip"}
+    wanted = {"tip ux": 50 * 2 * L * math.log(2) / E / 0.03 / 0.02}
+    if linear:
+        made.loads["M"] = {"moment": [0, 0, 1e-3], "on": "tip"}
+        wanted |= {"tip rz": 1e-3 * 3 * L * 12 / E / 0.03 / 0.02**3, "root Rrz": -1e-3}
+    return made, wanted
+
+
+CASES = {"taper": ("taper", tapered), "release": ("members.release", propped), "pinned": ("members.release", pinned), "springs": ("springs", sprung), "gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
          "part": ("loads.temperature", heated_in_part), "drive": ("", settled), "axes": ("loads.to_value", own_axes), "rotation": ("", hinged)}
 DRIVEN = {"pyelastica"}  # rods with a clamped and a free end only
 
@@ -110,8 +125,9 @@ DRIVEN = {"pyelastica"}  # rods with a clamped and a free end only
 class Keys(PeerTest):
 
     def check(self, peer, name, element, make):
-        made, wanted = make()
-        kind = "linear" if "linear" in element.analyses else "static"
+        linear = "linear" in element.analyses
+        made, wanted = make(linear) if make is tapered else make()
+        kind = "linear" if linear else "static"
         made.analyses["all"] = {kind: {} if kind == "linear" else {"stations": [1]}}
         for key in wanted:
             node, word = key.split()

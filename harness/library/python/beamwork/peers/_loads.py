@@ -8,7 +8,7 @@ from .data import Load, Mesh, MeshElement, Refused, Scene, Vector, times
 
 _GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
 KEYS = frozenset({"loads.distributed", "loads.distributed_moment", "loads.from", "loads.to", "loads.to_value", "loads.lumped",
-                  "loads.where", "loads.gravity"})  # keys that `nodal` reads
+                  "loads.where", "loads.gravity", "taper"})  # keys that `nodal` reads; tapered members need nothing of drivers
 THERMAL = frozenset({"loads.temperature", "loads.gradient"})  # and these, in linear analyses
 
 

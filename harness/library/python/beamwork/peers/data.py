@@ -4,7 +4,7 @@ from __future__ import annotations
 import bisect
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
@@ -66,7 +66,8 @@ class Section:
 
 @dataclasses.dataclass(frozen=True)
 class Member:
-    """A line of constant curvature [1/m, in section axes] from `start`. axes: columns x, y, z at the start."""
+    """A line of constant curvature [1/m, in section axes] from `start`. axes: columns x, y, z at the start. taper: sections
+    along a tapered member; may be empty."""
     name: str
     ends: tuple[str, str]
     section: Section
@@ -75,6 +76,23 @@ class Member:
     length: float
     curvature: Vector
     raw: Mapping[str, Any]
+    taper: tuple[Section, ...] = ()
+
+    def section_at(self, x: float) -> Section:
+        """Returns the section at a fraction of the length, by a cubic between those of `taper`, which are at equal distances."""
+        last = len(self.taper) - 1
+        first = min(max(math.floor(x * last) - 1, 0), last - 3)
+        weights = [math.prod((x * last - j) / (i - j) for j in range(first, first + 4) if j != i) for i in range(first, first + 4)]
+        some = self.taper[first:first + 4]
+
+        def mean(of: Callable[[Section], float]) -> float:
+            values = [of(s) for s in some]
+            return math.inf if math.inf in values else sum(w * v for w, v in zip(weights, values))
+
+        return dataclasses.replace(
+            some[1], EA=mean(lambda s: s.EA), GA=(mean(lambda s: s.GA[0]), mean(lambda s: s.GA[1])),
+            GIt=mean(lambda s: s.GIt), EIy=mean(lambda s: s.EIy), EIz=mean(lambda s: s.EIz), rho_A=mean(lambda s: s.rho_A),
+            rho_I=(mean(lambda s: s.rho_I[0]), mean(lambda s: s.rho_I[1]), mean(lambda s: s.rho_I[2])))
 
     def at(self, s: float) -> tuple[list[float], list[list[float]]]:
         """Returns the position and the axes (columns) at the arc length s."""
@@ -298,9 +316,7 @@ class Scene:
         numbers = {node.name: i for i, node in enumerate(self.nodes.values())}
         elements: list[MeshElement] = []
         for member in self.members.values():
-            breaks = self._breaks(member)
-            each = int(member.raw.get("divisions", n))
-            places = [a + (b - a) * i / each for a, b in zip(breaks, breaks[1:]) for i in range(each)] + [1.0]
+            places = self._places(member, n)
             last = numbers[member.ends[0]]
             for i, (begin, end) in enumerate(zip(places, places[1:])):
                 chain, frames, points = [last], [], []
@@ -316,9 +332,22 @@ class Scene:
                         chain.append(len(nodes))
                         nodes.append(MeshNode(len(nodes), None, at))
                 last = chain[-1]
-                elements.append(MeshElement(member, tuple(chain), triad(points[0], points[-1], frames), tuple(frames),
+                own = dataclasses.replace(member, section=self.sections[_part(member, i)]) if member.taper else member
+                elements.append(MeshElement(own, tuple(chain), triad(points[0], points[-1], frames), tuple(frames),
                                             (end - begin) * member.length, begin, end))
         return Mesh(tuple(nodes), tuple(elements), numbers)
+
+    def divided(self, n: int) -> Scene:
+        """Returns the scene with a section for each element of the mesh with n elements in tapered members."""
+        made = {_part(member, i): dataclasses.replace(member.section_at((a + b) / 2), name=_part(member, i))
+                for member in self.members.values() if member.taper
+                for places in [self._places(member, n)] for i, (a, b) in enumerate(zip(places, places[1:]))}
+        return dataclasses.replace(self, sections={**self.sections, **made})
+
+    def _places(self, member: Member, n: int) -> list[float]:
+        """Returns the ends of the elements as fractions of the member."""
+        breaks, each = self._breaks(member), int(member.raw.get("divisions", n))
+        return [a + (b - a) * i / each for a, b in zip(breaks, breaks[1:]) for i in range(each)] + [1.0]
 
     def _breaks(self, member: Member) -> list[float]:
         at = {float(load.raw[key]) for load in self.loads if load.member == member.name
@@ -328,6 +357,11 @@ class Scene:
             if place > out[-1] + 1e-3 and place < 1 - 1e-3:
                 out.append(place)
         return out + [1.0]
+
+
+def _part(member: Member, i: int) -> str:
+    """Returns the name of the section of an element of a tapered member."""
+    return f"{member.name} {i}"
 
 
 def interpolated(at: Sequence[float], value: Sequence[float], x: float) -> float:

@@ -95,7 +95,8 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
     for (name, entry), line in zip(file["members"].items(), raw["lines"]):
         first = entry["section"] if isinstance(entry["section"], str) else entry["section"][0]
         members[name] = Member(name, (entry["from"], entry["to"]), sections[first], line["start"], line["axes"],
-                               line["length"], line["curvature"], entry)
+                               line["length"], line["curvature"], entry,
+                               tuple(_section(first, own, physics) for own in line.get("sections", ())))
     nodes = {name: _turning(name, entry) for name, entry in file["nodes"].items()}
     return Scene(file["name"], raw["of"], physics, file.get("plane"), nodes, sections, members,
                  tuple(_load(name, entry, members) for name, entry in file.get("loads", {}).items()),
@@ -164,6 +165,11 @@ def check(scene: Scene, element: Element, program: str) -> None:
     for member in scene.members.values():
         if not isinstance(member.raw["section"], str) and "taper" not in element.keys:
             raise Refused(f"section: {member.name} is tapered")
+    for name, line in zip(scene.members, scene.raw["lines"]):
+        if any(abs(angle - line["angles"][0]) > 1e-12 for angle in line.get("angles", ())):
+            raise Refused(f"section: the principal axes of {name} rotate along it")
+        if "angles" in line and any(load.kind == "temperature" and load.member == name for load in scene.loads):
+            raise Refused(f"temperature: drivers do not have it on tapered members ({name})")
 
 
 def refusal(scene: Scene, element: Element, q: Quantity) -> str:

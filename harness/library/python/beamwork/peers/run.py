@@ -95,6 +95,7 @@ def _solved(peer: Any, scene: Scene, name: str, n: int, known: _Steps) -> dict[s
     about = {a.name: a.about for a in scene.analyses.values() if a.name in asked and a.about}
     if not asked:
         raise Refused("; ".join(sorted({refusal(scene, element, q) for q in scene.quantities})) or "no quantity")
+    scene = scene.divided(n)
     mesh = scene.mesh(n, element.order)
     groups = _groups(scene, asked)
     motions = [group for group in groups if group[-1].kind == "motion"]

@@ -405,7 +405,7 @@ class Frame(Model):
         whole = solved(1.0, "Linear")
         u = {name: np.array(whole.nodeDisp(n)) for name, n in numbers.items()}
         most = max(float(np.abs(v).max()) for v in u.values())
-        small = 1e-5 / most if most > 0 else 1.0
+        small = min(1e-5 / most if most > 0 else 1.0, 1e-4 / self._axial_effect())
         up, down = solved(small, "Newton"), solved(-small, "Newton")
         above, below = (reactions(model, self.scene, self.mesh) for model in (up, down))
         reaction = {name: (np.array(above[name]) - np.array(below[name])) / (2 * small) for name in numbers}
@@ -418,6 +418,12 @@ class Frame(Model):
             ],
             iterations=1,
         )
+
+    def _axial_effect(self) -> float:
+        """Returns a bound of the axial forces over EI/L^2: of the relative change of stiffnesses that they cause."""
+        forces = [math.hypot(*v[:3]) for load in self.scene.loads for v in nodal(load, self.mesh, self.scene).values()]
+        weakest = min(min(s.EIy, s.EIz) for s in self.scene.sections.values())
+        return max(sum(forces) * self.size**2 / weakest, 1e-12)
 
     def _modal(self, analysis: Analysis) -> Answer:
         if self.element != "force":
