@@ -24,9 +24,9 @@ def drawing(site, case):
     read = scene.read(case.points[0].scene)
     if read is None:
         return None
-    beside = draw.draw_sections(read)
-    return Drawing(site.image(draw.draw(read), f"{case.name}_scene", tight=False),
-                   site.image(beside, f"{case.name}_sections", tight=False) if beside else None,
+    beside = draw.compose_sections(read)
+    return Drawing(draw.compose(read).image(site, f"{case.name}_scene"),
+                   beside.image(site, f"{case.name}_sections") if beside else None,
                    describe.counts(read), describe.describe(read))
 
 

@@ -78,7 +78,7 @@ function draw() {
   const high = bottom + 66 + 18 * Math.ceil(curves.length / abreast), first = extra.filter(key => curves.some(curve => curve.key == key));
   const off = curves.length > 8 ? first.slice(-(curves.length - 8)) : [];
   place.innerHTML = `<svg viewBox="0 0 ${right + 14} ${high}" width="${right + 14}" height="${high}" role="img" aria-label="${safe(side)} against ${safe(x_name)}" data-off="${safe(off.join(" "))}" fill="currentColor" font-size="11.5" font-family="'DejaVu Sans',Verdana,sans-serif"><defs>${marks}</defs>${out}</svg>`;
-  const columns = ["elements", unit && unit != "1" ? `value [${unit}]` : "value", "error", "time [s]", "cost [s]", "unknowns", "iterations", "verdict"];
+  const columns = ["n", unit && unit != "1" ? `value [${unit}]` : "value", "error", "time [s]", "cost [s]", "unknowns", "iterations", "verdict"];
   const told = place.appendChild(Object.assign(document.createElement("script"), { type: "application/json" }));
   const size = columns.length;
   told.textContent = JSON.stringify({ h: [columns], v: curves.flatMap(({ rows }) => columns.map((_, k) => rows.map(r => r.row[k]))), s: curves.map(({ key, rows }, i) => ({ f: key, t: name, h: 0, k: {}, n: rows.length, r: columns.map((_, k) => size * i + k) })) });

@@ -5,6 +5,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 from reports.figures.style import plt
+from reports.structure_drawing.sheet import Sheet
 
 def number(value):
     if 1e4 <= abs(value) < 1e8:
@@ -153,11 +154,27 @@ class Canvas:
             self.draws.append(lambda axes, m=middle, t=text, c=colour, s=size: axes.text(
                 *m, t, color=c, fontsize=s, ha="center", va="center", zorder=8))
 
-    def finish(self, margin=6):
+    def corners(self, margin=6):
+        """Places the labels. Returns the corners of the drawing."""
         self.place_labels()
         self.labels = []
         low, high = self.extent()
-        low, high = low - margin, high + margin
+        return low - margin, high + margin
+
+    def image(self, site, name):
+        """Returns the svg.Image of the drawing for a page, and writes the figure for papers if it is requested."""
+        if site.paper.wants(name):
+            figure = self.finish()
+            site.paper.figure(figure, name)
+            plt.close(figure)
+        sheet = Sheet(*self.corners())
+        sheet.faces([face[1:] for face in sorted(self.faces, key=lambda f: f[0])])
+        for draw in self.draws:
+            draw(sheet)
+        return sheet.image(name)
+
+    def finish(self):
+        low, high = self.corners()
         figure = plt.figure(figsize=(high - low) / 72)
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set_axis_off()

@@ -155,14 +155,19 @@ def sections_drawn(scene):
     return list(out.values())[:MOST]
 
 
-def draw_sections(scene):
+def compose_sections(scene):
     names = sections_drawn(scene)
     if not names:
         return None
     canvas, left = Canvas(), 0
     for name in names:
         left = put_section(canvas, name, scene.sections[name], left) + GAP
-    return canvas.finish()
+    return canvas
+
+
+def draw_sections(scene):
+    canvas = compose_sections(scene)
+    return canvas and canvas.finish()
 
 
 FAR = 5  # distance, in multiples of the size of the structure, from which an axis of rotation is not drawn

@@ -168,7 +168,7 @@ class Explorer(ProgramTest):
         self.assertEqual(out["first"]["label"],
                          "relative error of w_over_L against elements per member")
         self.assertIn("case=elastica", out["hash"])
-        self.assertRegex(out["box"], r"(?s)beamw.*elements\s+1\b.*verdict")
+        self.assertRegex(out["box"], r"(?s)beamw.*n\s+1\b.*verdict")
         self.assertRegex(out["second"]["label"], r"w_over_L \[1\] against unknowns")
         self.assertTrue(out["third"]["words"].startswith("warping_torsion"))
 
@@ -213,8 +213,8 @@ class Behaviour(ProgramTest):
             out.aloud = q(".aloud").textContent;
             key("ArrowUp"); out.back = q("#said b").innerText;
             key("Escape"); out.gone = q("#said").hidden;""")
-        self.assertRegex(out["first"], r"(?s)beamw.*w_over_L.*elements\s+1\b.*value.*error.*verdict")
-        self.assertRegex(out["second"], r"elements\s+2\b")
+        self.assertRegex(out["first"], r"(?s)beamw.*w_over_L.*n\s+1\b.*value.*error.*verdict")
+        self.assertRegex(out["second"], r"n\s+2\b")
         self.assertIn(out["other"], ("beamw_consistent", "beamw_first"))
         self.assertIn(out["other"], out["aloud"])
         self.assertEqual(out["back"], "beamw")
