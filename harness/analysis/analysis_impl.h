@@ -146,6 +146,9 @@ const char *flutter_damping(const model *, int damped);
 /* Returns the kind of instability of the mode with the largest growth rate, and sets *mode to its
  * index. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
+/* Computes the squares of the first `most` frequencies, in ascending order; negative: divergence.
+ * Without mass, or with damping, computes |s|^2. Returns their number. */
+int flutter_squares(const flutter_system *, const unsymmetric_result *, int most, double square[]);
 /* Returns the kind in words, such as "flutter, undamped", "divergence" or "flutter, growth with
  * damping". */
 const char *flutter_name(const flutter_system *, flutter_kind);
@@ -165,12 +168,27 @@ status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *
 /* Stability of states with an unsymmetric tangent. If there is mass, the frequencies of small
  * motions decide, otherwise the number of eigenvalues of the tangent that have passed zero. */
 
+enum { FLUTTER_MOTIONS = 8 }; /* number of examined modes, which have the smallest |s| */
+
+typedef struct flutter_state {
+    double path;  /* NAN: no state */
+    int unstable; /* number of negative eigenvalues, or 1 if a mode grows; -1: unknown */
+    int by_modes; /* 1: the tangent is unsymmetric, so the modes decide */
+    int modes;    /* number of known values; 0: unknown */
+    /* [modes] squares of frequencies as in flutter_squares, or the lowest eigenvalues of the
+     * tangent
+     */
+    double square[FLUTTER_MOTIONS];
+} flutter_state;
+
 /* Work space of an analysis. All members are initially zero. */
 typedef struct flutter_check {
-    int begun;
+    int begun, measured;
     /* run whose tangent has all coordinates, which the tangent of the path may not have */
     newton_run n;
     flutter_system of;
+    flutter_state first, last, here; /* ends of the step, and the state that was examined last */
+    double *work; /* metric, vectors and work space of the eigenvalues of the tangent */
 } flutter_check;
 
 /* Stores the stability of the state in the record of the step that ended in the state; STEP_OPEN:
@@ -322,10 +340,10 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
 /* Checks if stability is lost and regained within a step of a static path. The state is examined
  * after every sixth of the step, so a loss over a fifth of the step is noticed. */
 
-/* Examines the step between the two states. *found: a path value within the step at which stability
- * differs from that of both ends; INFINITY: none, or unknown. The work is not counted. */
-status within_step(flutter_check *, analysis_context *, const model_state *from,
-                   const model_state *to, double *found, fault *);
+/* Examines the step from n->backup to n->state. *found: a path value within the step at which
+ * stability differs from that of both ends; INFINITY: none, or unknown. If the pivots do not decide
+ * the stability at the end of the step, stores it in the record. The work is not counted. */
+status within_step(flutter_check *, const newton_run *n, step_record *, double *found, fault *);
 
 /* Small motions and stability about a loaded, deformed state: the last state of the static path
  * that the analysis follows. */

@@ -1,9 +1,12 @@
 #include "harness/analysis/analysis_impl.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
@@ -73,6 +76,23 @@ const char *flutter_damping(const model *m, int damped)
     return !damping_acts(m) ? "" : damped ? "with damping" : "undamped";
 }
 
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+int flutter_squares(const flutter_system *s, const unsymmetric_result *r, int most, double square[])
+{
+    const int all = s->massless || s->damped, count = r->count < most ? r->count : most;
+    for (int i = 0; i < count; i++)
+        square[i] = r->frequency[i] > 0
+                        ? r->frequency[i] * r->frequency[i] + all * r->growth[i] * r->growth[i]
+                        : -r->growth[i] * r->growth[i];
+    qsort(square, (size_t)count, sizeof *square, ascending);
+    return count;
+}
+
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
     const double rounding = 1e-6; /* relative rounding error of a double eigenvalue that diverges */
@@ -99,17 +119,31 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = 8 };                  /* number of examined modes, which have the smallest |s| */
+enum { MOTIONS = FLUTTER_MOTIONS, PARTS = 6, VECTORS = 4 };
 static const double most_error = 1e-2; /* if the error is larger, the mode is unknown */
 static const double real_part =
     1e-6; /* smaller imaginary parts, relative to the magnitude, are rounding errors */
+
+/* Allocates the metric D and the vectors. */
+static status begin_values(flutter_check *j, fault *f)
+{
+    const size_t n = (size_t)j->n.free;
+    j->first.path = NAN;
+    j->work = malloc((1 + 3 * VECTORS) * n * sizeof *j->work + 1);
+    if (j->work == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the stability of %zu coordinates", n);
+    for (size_t i = 0; i < VECTORS * n; i++)
+        j->work[n + i] = sin(1 + 1.7 * (double)i * (double)(1 + i / n));
+    return STATUS_OK;
+}
 
 status flutter_check_begin(flutter_check *j, analysis_context *c, fault *f)
 {
     if (j->begun)
         return STATUS_OK;
     j->begun = 1;
-    return newton_alloc(c, 0, &j->n, f);
+    TRY(newton_alloc(c, 0, &j->n, f));
+    return begin_values(j, f);
 }
 
 /* Returns the stability according to the modes. An odd number of negative eigenvalues of K always
@@ -127,13 +161,15 @@ static step_stability by_motions(const flutter_check *j, const unsymmetric_resul
     return flutter_of(&j->of, r, &mode) == FLUTTER_NONE ? STEP_STABLE : STEP_GROWS;
 }
 
-static status ask_motions(flutter_check *j, step_record *record, fault *f)
+static status ask_motions(flutter_check *j, int estimate, step_record *record, fault *f)
 {
     unsymmetric_result r = {0};
     fault why = {""};
-    const status outcome = flutter_motions(&j->n, &j->of, MOTIONS, 1, &r, &why);
-    if (outcome == STATUS_OK)
+    const status outcome = flutter_motions(&j->n, &j->of, MOTIONS, estimate, &r, &why);
+    if (outcome == STATUS_OK) {
         record->judged = by_motions(j, &r);
+        j->here.modes = flutter_squares(&j->of, &r, MOTIONS, j->here.square);
+    }
     unsymmetric_free(&r);
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
@@ -153,6 +189,22 @@ static status count_passed(flutter_check *j, step_record *record, fault *f)
     return STATUS_OK;
 }
 
+/* Determines the stability of the state in which K was factored. inside 1: the state is inside a
+ * step; the errors of its modes are estimated only if a mode grows. */
+static status flutter_check_factored(flutter_check *j, int inside, step_record *record, fault *f)
+{
+    record->negative_pivots = factor_count(j->n.factor).negative_pivots;
+    if (record->negative_pivots >= 0)
+        return STATUS_OK;
+    if (j->of.M.value == NULL)
+        TRY(flutter_system_alloc(&j->n, &j->of, f));
+    if (j->of.massless)
+        return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
+    if (inside)
+        TRY(ask_motions(j, 0, record, f));
+    return inside && record->judged == STEP_STABLE ? STATUS_OK : ask_motions(j, 1, record, f);
+}
+
 static status flutter_check_here(flutter_check *j, step_record *record, fault *f)
 {
     step_record at = {0};
@@ -161,16 +213,7 @@ static status flutter_check_here(flutter_check *j, step_record *record, fault *f
     record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
-    if (factored != STATUS_OK)
-        return STATUS_OK;
-    record->negative_pivots = at.negative_pivots;
-    if (at.negative_pivots >= 0)
-        return STATUS_OK;
-    if (j->of.M.value == NULL)
-        TRY(flutter_system_alloc(&j->n, &j->of, f));
-    if (!j->of.massless)
-        return ask_motions(j, record, f);
-    return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
+    return factored == STATUS_OK ? flutter_check_factored(j, 0, record, f) : STATUS_OK;
 }
 
 status flutter_check_state(flutter_check *j, analysis_context *c, const model_state *state,
@@ -192,24 +235,132 @@ void flutter_check_free(flutter_check *j)
         return;
     flutter_system_free(&j->of);
     newton_free(&j->n);
+    free(j->work);
 }
 
-enum { PARTS = 6 };
 static const double near_enough =
     1e-5; /* limit of the last correction for a state that is only examined */
 
-/* Sets *unstable to the degree of instability of the current state: the number of negative
+/* Sets j->here to the state in which K was factored: `unstable` is the number of negative
  * eigenvalues, or 1 if a mode grows; -1: unknown. */
-static status look(flutter_check *j, int *unstable, fault *f)
+static status degree(flutter_check *j, int inside, step_record *record, fault *f)
 {
-    step_record record = {0};
-    TRY(flutter_check_here(j, &record, f));
-    *unstable = record.negative_pivots;
-    if (record.by_eigenvalues)
-        *unstable = record.passed;
-    else if (record.judged != STEP_OPEN)
-        *unstable = record.judged != STEP_STABLE;
+    j->here.modes = 0;
+    TRY(flutter_check_factored(j, inside, record, f));
+    j->here.unstable = record->negative_pivots;
+    j->here.by_modes = record->negative_pivots < 0;
+    if (record->by_eigenvalues)
+        j->here.unstable = record->passed;
+    else if (record->judged != STEP_OPEN)
+        j->here.unstable = record->judged != STEP_STABLE;
     return STATUS_OK;
+}
+
+/* Solves the projected problem A c = lambda B c and replaces X by Y C. Returns 0 if the vectors are
+ * dependent. */
+static int project(int n, int count, double A[], double B[], const double Y[], double X[],
+                   double lambda[])
+{
+    if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', count, A, count, B, count, lambda) != 0)
+        return 0;
+    for (int c = 0; c < count; c++)
+        for (int i = 0; i < n; i++) {
+            double sum = 0;
+            for (int k = 0; k < count; k++)
+                sum += A[c * count + k] * Y[(size_t)k * (size_t)n + (size_t)i];
+            X[(size_t)c * (size_t)n + (size_t)i] = sum;
+        }
+    return 1;
+}
+
+/* One inverse iteration of the vectors X in the metric D. */
+static int iterate(flutter_check *j, matrix_factor *K, int count, double lambda[])
+{
+    const int n = j->n.free;
+    const size_t N = (size_t)n;
+    const double *D = j->work;
+    double *X = j->work + N, *Y = X + VECTORS * N, *DX = Y + VECTORS * N, A[VECTORS * VECTORS],
+           B[VECTORS * VECTORS];
+    for (int c = 0; c < count; c++)
+        for (int i = 0; i < n; i++)
+            DX[(size_t)c * N + (size_t)i] = Y[(size_t)c * N + (size_t)i] =
+                D[i] * X[(size_t)c * N + (size_t)i];
+    factor_solve_many(K, count, n, Y);
+    for (int c = 0; c < count; c++)
+        for (int k = 0; k <= c; k++) {
+            const double *y = Y + (size_t)k * N, *z = Y + (size_t)c * N;
+            double sum = 0;
+            for (int i = 0; i < n; i++)
+                sum += y[i] * D[i] * z[i];
+            B[c * count + k] = sum;
+            A[c * count + k] = dense_dot(n, y, DX + (size_t)c * N);
+        }
+    return project(n, count, A, B, Y, X, lambda);
+}
+
+/* Sets the metric to the diagonal of the first tangent. */
+static void choose_metric(flutter_check *j, const sparse *K)
+{
+    double largest = 0;
+    for (int i = 0; i < K->n; i++) {
+        j->work[i] = fabs(sparse_diagonal(K, i));
+        largest = fmax(largest, j->work[i]);
+    }
+    for (int i = 0; i < K->n; i++)
+        if (!(j->work[i] > 0))
+            j->work[i] = largest > 0 ? largest : 1;
+    j->measured = 1;
+}
+
+/* Sets the lowest eigenvalues of the symmetric tangent K. The vectors of the last call are the
+ * first approximation. */
+static void lowest_values(flutter_check *j, const sparse *K, matrix_factor *factor)
+{
+    enum { MOST_ITERATIONS = 12 };
+    const double wanted_accuracy = 1e-2;
+    const int count = j->n.free < VECTORS ? j->n.free : VECTORS;
+    double before[VECTORS] = {0};
+    if (!j->measured)
+        choose_metric(j, K);
+    j->here.modes = 0;
+    for (int i = 0; i < MOST_ITERATIONS; i++) {
+        double *lambda = j->here.square;
+        int same = i > 0;
+        if (!iterate(j, factor, count, lambda))
+            return;
+        for (int k = 0; k < count; k++)
+            same &= fabs(lambda[k] - before[k]) <= wanted_accuracy * fabs(lambda[k]);
+        memcpy(before, lambda, (size_t)count * sizeof *before);
+        if (!same)
+            continue;
+        j->here.modes = count;
+        return;
+    }
+}
+
+/* Factors K in the state of j->n, for the loads at `path`, and sets j->here. */
+static status look(flutter_check *j, int inside, double path, step_record *record, fault *f)
+{
+    step_record unused = {0};
+    fault why = {""};
+    const status factored = newton_direction(&j->n, path, &unused, &why);
+    record->negative_pivots = j->here.unstable = -1;
+    if (factored == STATUS_FAULT)
+        return fault_set(f, factored, "%s", why.text);
+    if (factored != STATUS_OK)
+        return STATUS_OK;
+    TRY(degree(j, inside, record, f));
+    if (j->here.unstable >= 0 && !j->here.by_modes)
+        lowest_values(j, &j->n.K, j->n.factor);
+    return STATUS_OK;
+}
+
+/* Returns 1 if the stability in the examined state differs from that at both ends of the step. */
+static int differs(const flutter_check *j)
+{
+    const int first = j->first.unstable, last = j->last.unstable, here = j->here.unstable;
+    return here >= 0 &&
+           (here < (first < last ? first : last) || here > (first > last ? first : last));
 }
 
 /* Advances to `path`. *reached 0: Newton's method did not converge. */
@@ -224,23 +375,23 @@ static status go_to(newton_run *n, double path, int *reached, fault *f)
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
+/* Examines the states at the ends of PARTS equal parts of the step. */
 static status look_at_parts(flutter_check *j, const model_state *from, const model_state *to,
                             double *found, fault *f)
 {
-    const model *m = j->n.c->model;
     const double begin = kinematics_state_path(from), end = kinematics_state_path(to);
-    int first = -1, last = -1, here = -1, reached = 1;
-    kinematics_state_copy(m, to, j->n.state);
-    TRY(look(j, &last, f));
-    kinematics_state_copy(m, from, j->n.state);
-    TRY(look(j, &first, f));
-    for (int i = 1; i < PARTS && first >= 0 && last >= 0; i++) {
+    const model_state *const ends[] = {from, to};
+    int reached = 1;
+    kinematics_state_copy(j->n.c->model, from, j->n.state);
+    for (int i = 1; i < PARTS; i++) {
         const double path = begin + (end - begin) * i / PARTS;
+        extrapolate_state(&j->n.c->eq, 2, ends, path, j->n.state);
+        step_record unused = {0};
         TRY(go_to(&j->n, path, &reached, f));
         if (!reached)
             return STATUS_OK;
-        TRY(look(j, &here, f));
-        if (here < 0 || (here >= fmin(first, last) && here <= fmax(first, last)))
+        TRY(degree(j, 1, &unused, f));
+        if (!differs(j))
             continue;
         *found = path;
         return STATUS_OK;
@@ -248,15 +399,120 @@ static status look_at_parts(flutter_check *j, const model_state *from, const mod
     return STATUS_OK;
 }
 
-status within_step(flutter_check *j, analysis_context *c, const model_state *from,
-                   const model_state *to, double *found, fault *f)
+/* Returns the value nearest to zero of the parabola through the values at the ends and in the
+ * middle of the step, relative to the value nearest to zero of these three. */
+static double least_part(double a, double b, double c)
 {
+    const double slope = (c - a) / 2, bend = (a + c) / 2 - b,
+                 least = fmin(fabs(a), fmin(fabs(b), fabs(c)));
+    if (!(least > 0) || (a > 0) != (b > 0) || (a > 0) != (c > 0))
+        return 0;
+    if (bend == 0 || fabs(slope) >= 2 * fabs(bend) || (bend > 0) != (a > 0))
+        return 1;
+    return (fabs(b) - slope * slope / (4 * fabs(bend))) / least;
+}
+
+/* Returns the relative difference of two adjacent values. */
+static double gap(const flutter_state *s, int i)
+{
+    return (s->square[i + 1] - s->square[i]) / (fabs(s->square[i + 1]) + fabs(s->square[i]));
+}
+
+/* Returns 1 if the values at the ends and in the middle show that none of them passes zero within
+ * the step and, if the modes decide, that no two of them meet. */
+static int stays(const flutter_check *j)
+{
+    const flutter_state *a = &j->first, *b = &j->here, *c = &j->last;
+    const double enough = 0.5;
+    if (b->modes == 0 || a->modes != b->modes || c->modes != b->modes ||
+        a->by_modes != b->by_modes || c->by_modes != b->by_modes)
+        return 0;
+    for (int i = 0; i < b->modes; i++)
+        if (!(least_part(a->square[i], b->square[i], c->square[i]) > enough))
+            return 0;
+    for (int i = 0; b->by_modes && i + 1 < b->modes; i++)
+        if (!(least_part(gap(a, i), gap(b, i), gap(c, i)) > enough))
+            return 0;
+    return 1;
+}
+
+/* Sets *uniform to 1 if the step is so uniform that its stability cannot change and change back:
+ * loads, state and tangent in its middle differ little from those between its ends. */
+static status look_at_middle(flutter_check *j, const model_state *from, const model_state *to,
+                             int *uniform, fault *f)
+{
+    const double middle = (kinematics_state_path(from) + kinematics_state_path(to)) / 2,
+                 small_correction = 0.1, rounding_error = 1e-9;
+    double moved;
+    step_record unused = {0};
+    newton_correction correction;
+    *uniform = 0;
+    kinematics_state_copy(j->n.c->model, from, j->n.state);
+    if ((j->of.M.value != NULL && j->of.damped) ||
+        !extrapolate_between(&j->n.c->eq, from, to, j->n.state, &moved))
+        return STATUS_OK;
+    TRY(look(j, 1, middle, &unused, f));
+    if (j->here.unstable < 0 || differs(j) || !stays(j))
+        return STATUS_OK;
+    newton_advance(&j->n, middle, &correction);
+    *uniform = correction.size <= small_correction * moved + rounding_error;
+    return STATUS_OK;
+}
+
+static status examine(flutter_check *j, const model_state *s, step_record *record,
+                      flutter_state *out, fault *f)
+{
+    kinematics_state_copy(j->n.c->model, s, j->n.state);
+    TRY(look(j, 0, kinematics_state_path(s), record, f));
+    *out = j->here;
+    out->path = kinematics_state_path(s);
+    return STATUS_OK;
+}
+
+/* Sets j->first and j->last. The tangent of the last iteration serves at the end if its pivots
+ * decide. */
+static status look_at_ends(flutter_check *j, const newton_run *n, step_record *record, fault *f)
+{
+    step_record unused = {0};
+    const int own = n->condensed == NULL && n->c->options->newton != NEWTON_DENSE;
+    if (record->negative_pivots >= 0 && own) {
+        j->here = (flutter_state){.path = kinematics_state_path(n->state),
+                                  .unstable = record->negative_pivots};
+        lowest_values(j, &n->K, n->factor);
+        j->last = j->here;
+    } else {
+        TRY(examine(j, n->state, record, &j->last, f));
+    }
+    return j->first.path == kinematics_state_path(n->backup)
+               ? STATUS_OK
+               : examine(j, n->backup, &unused, &j->first, f);
+}
+
+static status look_within(flutter_check *j, const newton_run *n, step_record *record, double *found,
+                          fault *f)
+{
+    int uniform;
+    TRY(look_at_ends(j, n, record, f));
+    if (j->first.unstable < 0 || j->last.unstable < 0)
+        return STATUS_OK;
+    TRY(look_at_middle(j, n->backup, n->state, &uniform, f));
+    if (!uniform)
+        TRY(look_at_parts(j, n->backup, n->state, found, f));
+    if (!isfinite(*found))
+        j->first = j->last;
+    return STATUS_OK;
+}
+
+status within_step(flutter_check *j, const newton_run *n, step_record *record, double *found,
+                   fault *f)
+{
+    analysis_context *c = n->c;
     const counters work = c->run->counters;
     const int singular = c->work->singular;
     *found = INFINITY;
     TRY(flutter_check_begin(j, c, f));
     j->n.newton_convergence.criterion = fmax(near_enough, c->options->criterion);
-    const status outcome = look_at_parts(j, from, to, found, f);
+    const status outcome = look_within(j, n, record, found, f);
     c->work->singular = singular;
     c->run->counters = work;
     return outcome;

@@ -60,23 +60,10 @@ typedef struct search {
     int mode;
 } search;
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void describe(search *s, const unsymmetric_result *r, station *out)
 {
-    /* 1: |s|^2 replaces the squares of all frequencies */
-    const int all = s->of.massless || s->of.damped;
     out->kind = flutter_of(&s->of, r, &s->mode);
-    out->count = r->count < MOTIONS ? r->count : MOTIONS;
-    for (int i = 0; i < out->count; i++)
-        out->square[i] = r->frequency[i] > 0
-                             ? r->frequency[i] * r->frequency[i] + all * r->growth[i] * r->growth[i]
-                             : -r->growth[i] * r->growth[i];
-    qsort(out->square, (size_t)out->count, sizeof *out->square, ascending);
+    out->count = flutter_squares(&s->of, r, MOTIONS, out->square);
     if (out->kind == FLUTTER_NONE)
         return;
     const double rate = r->growth[s->mode], split = r->split[s->mode];

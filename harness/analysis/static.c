@@ -24,10 +24,9 @@ static status check_flutter(newton_run *n, flutter_check *flutter, int last_reso
     if (flutter == NULL)
         return STATUS_OK;
     if (!last_resort)
-        TRY(within_step(flutter, n->c, n->backup, n->state, found, f));
-    return record->negative_pivots >= 0 || isfinite(*found)
-               ? STATUS_OK
-               : flutter_check_state(flutter, n->c, n->state, record, f);
+        return within_step(flutter, n, record, found, f);
+    return record->negative_pivots >= 0 ? STATUS_OK
+                                        : flutter_check_state(flutter, n->c, n->state, record, f);
 }
 
 static void take_back(newton_run *n, const step_record *record)

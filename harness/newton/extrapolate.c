@@ -280,3 +280,27 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     kinematics_follow(m, out);
     return 1;
 }
+
+int extrapolate_between(const equations *eq, const model_state *from, const model_state *to,
+                        model_state *middle, double *moved)
+{
+    enum { PARTS = 24 };
+    const model *m = eq->m;
+    const model_state *const ends[] = {from, to};
+    const double step = to->path - from->path;
+    for (int i = 1; i < PARTS; i++) {
+        guesses g;
+        weigh(eq, 2, 2, ends, from->path + step * i / PARTS, &g);
+        if (!g.good[2])
+            return 0;
+    }
+    *moved = 0;
+    for (int v = 0; v < model_vertices(m); v++) {
+        double turn[3];
+        rotation_between(&from->q[4 * v], &to->q[4 * v], turn);
+        for (int c = 0; c < 3; c++)
+            *moved = fmax(*moved, fmax(fabs(turn[c]), fabs(to->u[3 * v + c] - from->u[3 * v + c]) /
+                                                          model_length(m)));
+    }
+    return extrapolate_state(eq, 2, ends, from->path + step / 2, middle);
+}

@@ -975,6 +975,12 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
+/* Interpolates the state in the middle between two states. *moved: the largest displacement
+ * relative to the size of the structure, or rotation [rad], from one to the other. Returns 0,
+ * without changing `middle`, if prescribed motions or load factors deviate from a line between the
+ * states. */
+int extrapolate_between(const equations *, const model_state *from, const model_state *to,
+                        model_state *middle, double *moved);
 
 /* Removes the iterations of a rejected step. */
 void history_drop_step(solve_result *r, const step_record *step);
