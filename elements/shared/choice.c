@@ -48,18 +48,24 @@ enum { LONGEST = 64 };
 
 int choice_distance(const char *a, const char *b)
 {
-    int row[LONGEST + 1];
+    int rows[3][LONGEST + 1];
+    int *before = rows[0], *above = rows[1], *row = rows[2];
     const int n = (int)strnlen(b, LONGEST);
     for (int j = 0; j <= n; j++)
         row[j] = j;
     for (int i = 1; a[i - 1] != '\0' && i < LONGEST; i++) {
-        int diagonal = row[0];
+        int *const oldest = before;
+        before = above;
+        above = row;
+        row = oldest;
         row[0] = i;
         for (int j = 1; j <= n; j++) {
-            const int substituted = diagonal + (a[i - 1] != b[j - 1]);
-            const int shorter = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
-            diagonal = row[j];
+            const int substituted = above[j - 1] + (a[i - 1] != b[j - 1]);
+            const int shorter = above[j] < row[j - 1] ? above[j] + 1 : row[j - 1] + 1;
             row[j] = substituted < shorter ? substituted : shorter;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                before[j - 2] + 1 < row[j])
+                row[j] = before[j - 2] + 1;
         }
     }
     return row[n];
@@ -69,9 +75,11 @@ const char *choice_nearest(const char *word, const char *(*next)(const void *, i
                            const void *context)
 {
     const char *nearest = NULL, *name;
-    int least = (int)strnlen(word, LONGEST) / 2 + 2;
+    const int length = (int)strnlen(word, LONGEST);
+    int least = length / 3 + 1;
     for (int i = 0; (name = next(context, i)) != NULL; i++) {
-        const int d = strncmp(name, word, strlen(word)) == 0 ? 1 : choice_distance(word, name);
+        const int starts = length > 1 && strncmp(name, word, (size_t)length) == 0;
+        const int d = starts ? length > 2 : choice_distance(word, name);
         if (d < least) {
             least = d;
             nearest = name;

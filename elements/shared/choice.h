@@ -19,14 +19,15 @@ void choice_name(const char *choices, int index, char *text, int size);
 status choice_unknown(const char *what, const char *word,
                       const char *(*next)(const void *context, int i), fault *f);
 
-/* Returns the candidate nearest to a misspelt word by edit distance, which counts as 1 for
- * candidates that start with the word. Returns NULL if no distance is at most 1 + half the length
- * of the word. next(context, i) returns candidate i, or NULL after the last candidate. */
+/* Returns the candidate nearest to a misspelt word by edit distance, which counts as at most 1 for
+ * candidates that start with the word (of at least two letters). Returns NULL if no distance is at
+ * most a third of the length of the word. next(context, i) returns candidate i, or NULL after the
+ * last candidate. */
 const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
                            const void *context);
 
-/* Returns the number of letters to change, add or remove to convert a to b. Only the first 63
- * letters of a and the first 64 of b are compared. */
+/* Returns the number of letters to change, add or remove, and of adjacent letters to exchange, to
+ * convert a to b. Only the first 63 letters of a and the first 64 of b are compared. */
 int choice_distance(const char *a, const char *b);
 
 #endif

@@ -308,7 +308,7 @@ class Going(ProgramTest):
                 (("elastica", "--vary", "load=1..5000/3"), "outside its range"),
                 (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "both set and varied"),
                 (("elastica", "--vary", "load=1..2/3", "--vary", "load=3,4"), "given twice"),
-                (("elastica", "--vary", "load=1..2/3", "-k", "w_ovr"), "did you mean 'w_over_L'"),
+                (("elastica", "--vary", "load=1..2/3", "-k", "w_ovr_L"), "did you mean 'w_over_L'"),
                 (("elastica", "--vary", "load=1..2/3", "--design", "sobl"), "give one of grid|"),
                 (("elastica", "--vary", "load=1..2/3", "--points", "3"), "--points requires"),
                 (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed requires"),

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/shared/choice.h"
 #include "elements/test/kit.h"
 
 enum { LONGEST = 4000, EXPRESSIONS = 4000 };
@@ -183,6 +184,31 @@ static void unknown_words(void)
     gsl_test_int(all_met(NULL, &f), STATUS_OK, "no selection");
 }
 
+static const char *candidate(const void *list, int i)
+{
+    return ((const char *const *)list)[i];
+}
+
+/* A suggestion changes at most a third of the letters, or completes the word. */
+static void suggestions(void)
+{
+    static const char *const names[] = {"deg", "abs",     "from", "ux", "push",
+                                        "end", "warping", "load", NULL};
+    const struct {
+        const char *word, *near;
+    } all[] = {{"omega", NULL},        {"ramp", NULL},   {"pull", NULL},
+               {"ur", NULL},           {"form", "from"}, {"wraping", "warping"},
+               {"lod", "load"},        {"pu", "push"},   {"p", NULL},
+               {"warp", "warping"},    {"ends", "end"},  {"", NULL},
+               {"wrapign", "warping"}, {"wrpng", NULL}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        const char *near = choice_nearest(all[i].word, candidate, names);
+        gsl_test(all[i].near == NULL ? near != NULL
+                                     : near == NULL || strcmp(near, all[i].near) != 0,
+                 "'%s' resembles %s", all[i].word, near != NULL ? near : "no name");
+    }
+}
+
 static void exact(void)
 {
     const char *const one = "shear_elastica/GA=10/beamw:mass=lumped/u";
@@ -205,6 +231,7 @@ int main(void)
     random_expressions();
     lengths();
     unknown_words();
+    suggestions();
     covered();
     return gsl_test_summary();
 }

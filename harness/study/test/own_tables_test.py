@@ -342,7 +342,7 @@ class Follow(ProgramTest):
         work = ("solve", "--scene", self.folder / "scene.yaml", "-f", "beamw", "-n", 2, "--follow")
         for over, words in (("width=1", "A..B/N"), ("width=1e-3..2e-3", "A..B/N"),
                             ("width=1e-3..2e-3/0", "A..B/N"), ("width=1e-3..2e-3/3x", "A..B/N"),
-                            ("wide=1e-3..2e-3/3", "width"), ("width=1e-3..9/3", "width"),
+                            ("widht=1e-3..2e-3/3", "width"), ("width=1e-3..9/3", "width"),
                             ("width=1e-3..1e-3/3", "the same"), ("width=1e-3..x/3", "width")):
             self.refused(2, words, *work, over)
         self.refused(2, "no modes", "solve", "elastica", "-f", "beamw", "-n", 2, "--follow",
