@@ -4,6 +4,7 @@ import math
 import unittest
 
 from reports import answers, data, index, questions
+from reports import case as pages_of_cases
 from reports.problems import GROUPS, TrustRow
 from reports.test.results import case, series
 
@@ -59,6 +60,16 @@ class Questions(unittest.TestCase):
         self.assertEqual((question, line.case.name), (questions.LOADED, "one"))
         for level in answers.LEVELS:
             self.assertEqual((line.found[level].best[0].key, line.found[level].best[0].n), ("b", 2))
+
+
+class Steps(unittest.TestCase):
+
+    def test_what_an_order_of_magnitude_costs(self):
+        fine, coarse = judged(key="a", n=4, cost=6.0), judged(key="b", n=2, cost=2.0)
+        coarse.verdicts[0].reach = {0.1: 2, 0.01: 2}
+        found = pages_of_cases.steps_of(pages_of_cases.cheapest_of(case("one", fine, coarse).points[0]))
+        self.assertEqual([(level, w.key, factor) for level, w, factor in found], [(0.001, "a", 3.0), (0.0001, "a", 3.0)])
+        self.assertEqual(pages_of_cases.steps_of([]), [])
 
 
 class Sizes(unittest.TestCase):
