@@ -11,6 +11,7 @@ import unittest.mock
 import numpy as np
 
 from harness.library.python.test.module import ModuleTest, bw
+from harness.library.python.test.peers_test import PeerTest
 
 peers = None if bw is None else importlib.import_module("beamwork.peers")
 data, path = (None, None) if bw is None else (importlib.import_module(f"beamwork.peers.{name}") for name in ("data", "_path"))
@@ -96,6 +97,31 @@ class Walk(ModuleTest):
         self.assertGreater(count, 1)
         self.assertEqual(len(begun), count + 1)
         self.assertEqual([p.values for p in again.path], [p.values for p in first.path])
+
+
+class Driven(PeerTest):
+
+    def test_rotation(self):
+        """A driven rotation must turn the structure, or be refused."""
+        made, length = bw.Scene("driven"), 0.5
+        made.sections["bar"] = {"constants": {"A": 5e-6, "Iy": 1e-9, "Iz": 1e-9, "It": 1e-9, "Ip": 2e-9}, "young": 2e11, "shear_modulus": 8e10}
+        made.nodes["root"] = {"at": [0, 0, 0], "hold": ["ux", "uy", "uz", "rx", "ry"], "drive": {"rz": "turn"}}
+        made.nodes["tip"] = {"at": [length, 0, 0]}
+        made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0]}
+        made.motions["turn"] = {"unit": "rad", "path": [0, 1], "value": [0, 2]}
+        made.analyses["path"] = {"static": {"stations": [0.25, 0.5, 0.75, 1]}}
+        for c in ("ux", "uy"):
+            made.quantities[c] = {"displacement": {"analysis": "path", "node": "tip", "component": c}, "unit": "m"}
+        made.omit = ["trapeze", "wagner_torque"]
+        given, want = self.data(made), (length * (math.cos(2) - 1), length * math.sin(2))
+        for peer in peers.names():
+            for name, element in peers.load(peer).ELEMENTS.items():
+                with self.subTest(peer=peer, element=name):
+                    found = peers.solve(given, peer, name, [4], rounds=1)
+                    if found.missing or "refusal" in found.runs[0]:
+                        self.skipTest(found.missing or found.runs[0]["refusal"])
+                    for c, value in zip(("ux", "uy"), want):
+                        self.assertAlmostEqual(found.runs[0]["values"][c] / value, 1, delta=1e-6)
 
 
 class Continuation(ModuleTest):

@@ -238,7 +238,7 @@ class LoadSteps:
     """Load steps along the path: small at first, doubled after success, halved after a failure, and limited so that no node
     turns by much more than half a radian in a step, because Newton's method may then find another equilibrium. Later
     rounds, with the same key, repeat the steps that succeeded."""
-    _FIRST, _LEAST, _TURN = 1 / 16, 1e-4, 0.5
+    _FIRST, _LEAST, _TURN, _JUMP = 1 / 16, 1e-4, 0.5, 2.0
     _known: dict[Any, list[float]] = {}
 
     def __init__(self, key: Any, last: float) -> None:
@@ -256,8 +256,12 @@ class LoadSteps:
             raise Failed(f"Newton's method does not converge after path parameter {sum(self.taken):g}")
 
     def done(self, step: float, turn: float) -> None:
-        """Records a step that succeeded. turn: largest rotation of a node in the step [rad]."""
+        """Records a step that succeeded. turn: largest rotation of a node in the step [rad]. Raises Failed if it is so large
+        that the structure jumped."""
         self.taken.append(step)
+        if turn > self._JUMP:
+            raise Failed(f"a node turns by {turn:.2g} rad in the step to path parameter {sum(self.taken):g}: Newton's method found "
+                         "another equilibrium")
         self.step = step * min(2.0, self._TURN / turn if turn > 0 else 2.0)
         self._known[self.key] = self.taken
 

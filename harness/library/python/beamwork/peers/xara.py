@@ -283,6 +283,9 @@ class Frame(Model):
         return model
 
     def _static(self, analysis: Analysis) -> Answer:
+        turned = [motion for node in self.scene.nodes.values() for c, motion in node.drive.items() if c[0] == "r"]
+        if self.element == "force" and any(self.scene.motion_value(name, p) != 0 for name in turned for p in analysis.stations):
+            raise Refused("drive: prescribed rotations of nodes do not turn the transformation Corotational02")
         model, self.model = self.model, None
         if model is None:
             model = self.new()
