@@ -185,7 +185,7 @@ class Drawn(ProgramTest):
         page = self.page("answers.html")
         for name, why in NAMES.items():
             self.assertRegex(page, rf"no rank \({why}\): {name} n = \d")
-        own = json.loads(re.search(r'id="points">(.*?)</script>', page)[1])
+        own = json.loads(self.page("answers_points.js").removeprefix("window.answersPoints = ").removesuffix(";\n"))
         self.assertEqual(set(own["cases"][0]["unranked"].values()), {*NAMES.values(), "kept with its misprint"})
 
     def test_profiles(self):
