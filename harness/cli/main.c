@@ -1,7 +1,10 @@
+#include <dlfcn.h>
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -33,12 +36,25 @@ static _Noreturn void refuse_stack(void)
     _exit(EXIT_FAULT);
 }
 
+/* Processes and threads of the program already use all processors, its matrices for BLAS are small,
+ * and threads of OpenBLAS spin while they wait. */
+static void use_single_blas_thread(void)
+{
+    void (*set)(int);
+    void *const found = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+    if (found == NULL || getenv("OPENBLAS_NUM_THREADS") != NULL)
+        return;
+    memcpy(&set, &found, sizeof set);
+    set(1);
+}
+
 int main(int count, char **arguments)
 {
     if (!stack_suffices())
         refuse_stack();
     ending_begin();
     gsl_set_error_handler_off();
+    use_single_blas_thread();
     /* HDF5 must not clean up at exit: beamwork closes all HDF5 objects, and the exit handler of
      * HDF5 crashes or prints many lines if memory is exhausted. */
     H5dont_atexit();
