@@ -1,5 +1,6 @@
 #include "harness/newton/newton_impl.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,14 +11,33 @@
 static int condensation_number(condensation *s, int count, const int released[]);
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Returns 1 if members can be condensed, and at least one has `from` or more elements. Conditions:
- * all loads with a stiffness act at the ends of members, no member lies on an elastic foundation,
- * the axes do not rotate, the scene is spatial, elements have neither forces with a history nor
- * additional unknowns, and the model does not keep all coordinates. */
+/* Above this condition number, corrections from an assembled tangent have fewer than three correct
+ * digits, and Newton's method needs more iterations. */
+static const double most_condition = 1e12;
+
+/* Returns 1 if rounding would spoil an assembled tangent of the member. The condition number is
+ * estimated as that of a cantilever: 12 EI/l^3 of the shortest element, times the flexibility
+ * L^3/(3 EI), times the number of elements. */
+static int loses_digits(const model *m, int member)
+{
+    const int first = model_first_element(m, member), end = model_first_element(m, member + 1);
+    double length = 0, shortest = INFINITY;
+    for (int i = first; i < end; i++) {
+        length += model_kind_of(m, i)->length;
+        shortest = fmin(shortest, model_kind_of(m, i)->length);
+    }
+    return 4 * pow(length / shortest, 3) * (end - first) > most_condition;
+}
+
+/* Returns 1 if members can be condensed, and at least one has `from` or more elements (0: so many
+ * that rounding would spoil an assembled tangent). Conditions: all loads with a stiffness act at
+ * the ends of members, no member lies on an elastic foundation, the axes do not rotate, the scene
+ * is spatial, elements have neither forces with a history nor additional unknowns, and the model
+ * does not keep all coordinates. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
-    int longest = 0;
+    int found = 0;
     if (eq->loading.rotates || model_absolute(m) || model_keeps_all(m) ||
         model_scene(m)->plane != SCENE_SPACE || model_scalars(m) > 0)
         return 0;
@@ -28,12 +48,12 @@ static int applies(const equations *eq, int from)
             return 0;
     }
     for (int i = 0; i < model_scene(m)->members; i++) {
-        const int count = model_first_element(m, i + 1) - model_first_element(m, i);
         if (scene_is_founded(&model_scene(m)->member[i]))
             return 0;
-        longest = count > longest ? count : longest;
+        found |= from > 0 ? model_first_element(m, i + 1) - model_first_element(m, i) >= from
+                          : loses_digits(m, i);
     }
-    return longest >= from;
+    return found;
 }
 
 static void append_released(const model *m, const mesh_element *from, int vertex, int begin,
@@ -54,7 +74,7 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
 {
     const int nodes = model_nodes(m), last = model_first_element(m, index + 1) - 1;
     out->first = model_first_element(m, index);
-    out->links = last + 1 - out->first;
+    out->elements = last + 1 - out->first;
     const mesh_element *p = model_element(m, out->first), *q = model_element(m, last);
     mesh_element *e = &out->ends;
     *e = *p;
@@ -71,15 +91,15 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     append_released(m, p, e->vertex[0], NODE_COORDINATES * nodes, e);
     append_released(m, q, e->vertex[1], q->columns - released_columns(m, e->vertex[1]), e);
     const int warps = p->warp[0] != NONE || p->warp[1] != NONE || q->warp[nodes - 1] != NONE;
-    out->joint = warps ? NODE_COORDINATES : NODE_COORDINATES - 1;
-    out->y = out->joint * (nodes - 1);
-    return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
+    out->form = (piece_form){.joint = warps ? NODE_COORDINATES : NODE_COORDINATES - 1,
+                             .nodes = nodes,
+                             .strains = model_strains(m)};
+    return pieces_alloc(out, f);
 }
 
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
-    size_t longest = 0;
     s->members = model_scene(m)->members;
     s->member = calloc((size_t)s->members, sizeof *s->member);
     if (s->member == NULL)
@@ -87,17 +107,11 @@ static status find_members(condensation *s, const condensation *of, fault *f)
     s->lent = of != NULL;
     if (s->lent) {
         memcpy(s->member, of->member, (size_t)s->members * sizeof *s->member);
-        s->r = of->r;
         return STATUS_OK;
     }
-    for (int i = 0; i < s->members; i++) {
+    for (int i = 0; i < s->members; i++)
         TRY(member_of(m, i, &s->member[i], f));
-        const size_t size = (size_t)s->member[i].links * (size_t)s->member[i].y;
-        longest = size > longest ? size : longest;
-    }
-    s->r = malloc(longest * sizeof *s->r);
-    return s->r != NULL ? STATUS_OK
-                        : fault_set(f, STATUS_FAULT, "out of memory for the loads of members");
+    return STATUS_OK;
 }
 
 static status build(condensation *s, const condensation *of, int count, const int released[],
@@ -168,9 +182,7 @@ void condensation_free(condensation *s)
     if (s == NULL)
         return;
     for (int i = 0; i < s->members && s->member != NULL && !s->lent; i++)
-        chain_free(s->member[i].chain);
-    if (!s->lent)
-        free(s->r);
+        pieces_free(&s->member[i]);
     free_sparse(&s->K);
     free_sparse(&s->inside);
     factor_free(s->factor);
@@ -180,55 +192,12 @@ void condensation_free(condensation *s)
     free(s);
 }
 
-/* Makes a link from an element. force[7 nodes]: internal forces in the state. */
-static status link_element_of(const equations *eq, const model_state *s, const condensed_member *of,
-                              int i, double path, chain_link *link, double force[], fault *f)
-{
-    const model *m = eq->m;
-    const model_slot w = linearise_slot(m, &eq->run->memory, i);
-    const double *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
-    node_state x[ELEMENT_MAX_NODES];
-    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
-        along[ELEMENT_MAX_COORDINATES] = {0};
-    kinematics_gather(m, s, model_element(m, i), x);
-    ahead_strain(eq, i, x,
-                 &(strain_output){.s = sigma, .H = H, .history = model_history_of(m, s, i)});
-    for (int k = 0; k < model_nodes(m); k++)
-        memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
-    memset(force, 0, (size_t)model_own_coordinates(m) * sizeof *force);
-    dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J, sigma, force);
-    distributed_add(eq, s, x, i, path, along, H);
-    for (int k = 0; k < model_own_coordinates(m); k++)
-        force[k] -= along[k];
-    const link_element el = {model_nodes(m), model_strains(m), of->joint, w.J, w.C, H, r};
-    return link_of(&el, link, f);
-}
-
-/* Builds the chain of a member. force[14]: internal forces at its ends. */
-static status fill_chain(const equations *eq, const model_state *s, condensed_member *of,
-                         double path, double force[], fault *f)
-{
-    const model *m = eq->m;
-    double own[ELEMENT_MAX_COORDINATES];
-    chain_begin(of->chain);
-    for (int i = of->first; i < of->first + of->links; i++) {
-        chain_link link;
-        TRY(link_element_of(eq, s, of, i, path, &link, own, f));
-        TRY(chain_add(of->chain, &link, f));
-        if (i == of->first)
-            memcpy(force, own, NODE_COORDINATES * sizeof *force);
-    }
-    memcpy(force + NODE_COORDINATES, own + NODE_COORDINATES * (model_nodes(m) - 1),
-           NODE_COORDINATES * sizeof *force);
-    return STATUS_OK;
-}
-
 static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
                             fault *f)
 {
-    const int c = of->joint, n = 2 * NODE_COORDINATES;
-    double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];
-    TRY(fill_chain(s->eq, s->at, of, path, force, f));
+    const int c = of->form.joint, n = 2 * NODE_COORDINATES;
+    double small[4 * CHAIN_JOINT * CHAIN_JOINT], force[2 * NODE_COORDINATES];
+    TRY(pieces_fill(s->eq, s->at, of, path, force, f));
     TRY(chain_stiffness(of->chain, small, f));
     s->negative += chain_negative(of->chain);
     memset(K, 0, (size_t)(n * n) * sizeof *K);

@@ -170,22 +170,40 @@ typedef struct shared_loop {
     fault *f;
 } shared_loop;
 
+/* Returns 1 if the matrices of some of these elements are required. Without K, only those of
+ * elements with prescribed coordinates are. */
+static int needs_matrices(const shared_loop *loop, int count, const int index[])
+{
+    const model *m = loop->m;
+    if (!loop->tangent || loop->lin->K != NULL)
+        return loop->tangent;
+    for (int k = 0; k < count; k++) {
+        const mesh_element *el = model_element(m, index[k]);
+        for (int j = 0; j < el->columns; j++)
+            if (el->index[j] >= model_unknowns(m))
+                return 1;
+    }
+    return 0;
+}
+
 static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
 {
     unsigned char done[CHUNK_WINDOW] = {0};
     int index[CHUNK_MOST], count;
     while ((count = chunk_next(loop->m, first, end, done, index)) > 0) {
         chunk_element element[CHUNK_MOST];
+        const int matrices = needs_matrices(loop, count, index);
         for (int k = 0; k < count; k++) {
             element[k].index = index[k];
             element[k].force = part[index[k] - first].force;
-            element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
+            element[k].K = matrices ? part[index[k] - first].K : NULL;
+            part[index[k] - first].matrix = matrices;
         }
         chunk_evaluate(loop->eq, loop->memory, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
-            p->outcome = element_equations(loop->eq, loop->memory, loop->s, &element[k],
-                                           loop->tangent, loop->lin->path, p);
+            p->outcome = element_equations(loop->eq, loop->memory, loop->s, &element[k], matrices,
+                                           loop->lin->path, p);
         }
     }
 }
@@ -222,9 +240,10 @@ static void add_part(const equations *eq, const mesh_element *el, element_part *
                      model_linearisation *lin)
 {
     const model *m = eq->m;
-    if (lin->drive != NULL)
+    if (lin->drive != NULL && part->matrix)
         add_driven(m, el, lin->drive, part->K, part->force);
-    add_columns(m, el, part->K, lin);
+    if (part->matrix)
+        add_columns(m, el, part->K, lin);
     phases_lap(&eq->run->phases, PHASE_ELEMENTS);
     for (int k = 0; k < el->columns; k++)
         part->force[k] = -part->force[k];
@@ -237,7 +256,7 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     const element_rotating_frame frame = loading_frame(&eq->loading, lin->path);
     const model *m = eq->m;
     for (int i = 0; i < model_discretes(m); i++) {
-        element_part part = {.incompatibility = 0};
+        element_part part = {.matrix = 1};
         discrete_equations(m, s, model_discrete(m, i), &frame, damping_of_springs(eq->run->damping),
                            part.force, part.K);
         add_part(eq, &model_discrete(m, i)->el, &part, lin);

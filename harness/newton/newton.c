@@ -347,10 +347,10 @@ status context_factor(analysis_context *c, matrix_factor *fa, const sparse *K, f
 status context_condensation(const analysis_context *c, int count, const int released[],
                             condensation **out, fault *f)
 {
-    const int from = c->options->condensed > 0 ? c->options->condensed : CONDENSATION_ELEMENTS;
     *out = NULL;
-    return c->options->condition ? STATUS_OK
-                                 : condensation_alloc(&c->eq, from, count, released, out, f);
+    return c->options->condition
+               ? STATUS_OK
+               : condensation_alloc(&c->eq, c->options->condensed, count, released, out, f);
 }
 
 status context_factor_condensed(analysis_context *c, condensation *s, fault *f)

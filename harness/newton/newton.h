@@ -558,7 +558,7 @@ typedef struct solve_options {
     int condition; /* 1: estimate the condition of the tangents (on a static path only at its
                       stations) */
     /* members are condensed to their ends if the longest member has at least this number of
-     * elements; 0: default */
+     * elements; 0: if rounding would spoil an assembled tangent */
     int condensed;
     int phases; /* 1: measure the times of the parts of an iteration */
     /* N > 0: each static path has N measured iterations and no results; 0: off */
@@ -837,6 +837,7 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
 typedef struct element_part {
     status outcome;
     fault why;
+    int matrix;             /* 1: K is known */
     double incompatibility; /* |D(x) - e|/l */
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;

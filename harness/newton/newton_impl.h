@@ -47,12 +47,10 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
 /* Condenses members to their ends before the tangent is solved, and expands the solution. The
  * remaining system is as small as with one element per member. */
 
-/* Default of solve_options.condensed. */
-enum { CONDENSATION_ELEMENTS = 1000 };
-
-/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, if there
- * are more than MOST_ENDS end coordinates, or if the members cannot be condensed (see the
- * conditions in condensation.c). released[count]: prescribed coordinates that are also unknowns. */
+/* Allocates a condensation. *out is NULL if all members have fewer elements than `from` (0: so few
+ * that rounding does not spoil an assembled tangent), if there are more than MOST_ENDS end
+ * coordinates, or if the members cannot be condensed (see the conditions in condensation.c).
+ * released[count]: prescribed coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* Allocates a condensation with other released coordinates and the members of `of`, which must
@@ -427,20 +425,105 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
  * matrix. */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
+/* Pieces of a member: equal numbers of successive elements, whose coordinates between the ends are
+ * eliminated. Coordinates of a piece are the motions relative to the motion of the whole piece with
+ * its first node (the start), and this motion. Entries of the size of an element stiffness
+ * therefore cancel only within a piece. Successive pieces form a group, with one piece in each
+ * lane. */
+enum {
+    PIECE_LANES = 4,
+    PIECE_ELEMENTS = 32,
+    PIECE_MARGIN = 3, /* unused entries at the end of a row of `front` */
+    PIECE_MOST_WIDTH = ELEMENT_MAX_COORDINATES + CHAIN_JOINT + PIECE_MARGIN
+};
+
+typedef struct piece_form {
+    int joint, nodes, strains; /* joint: number of leading coordinates of a node that are used */
+} piece_form;
+
+/* An element of each piece of a group. */
+typedef struct piece_element {
+    int first; /* 1: it is the first element of its piece */
+    /* tangent J^T C J + H in the coordinates of its nodes (element.h): [strains x 7 nodes],
+     * [strains x strains], [7 nodes x 7 nodes] */
+    const double *J[PIECE_LANES], *C[PIECE_LANES], *H[PIECE_LANES];
+    const double *arm; /* [nodes x 3 x lanes] vectors from the start to the nodes [m] */
+} piece_element;
+
+/* Returns the number of rows of `front`: the nodes of an element, then the start. */
+static inline int piece_rows(const piece_form *p)
+{
+    return p->joint * (p->nodes + 1);
+}
+
+/* Returns the number of stored values of an eliminated node. */
+static inline int piece_kept(const piece_form *p)
+{
+    return p->joint * piece_rows(p) - p->joint * (p->joint - 1) / 2;
+}
+
+/* Adds the element to front[rows x (rows + margin) x lanes], of which the lower triangle is used.
+ * work[2 x (strains + rows) x (rows + margin) x lanes]. */
+void triangular_pieces_add_plain(const piece_form *, const piece_element *, double work[],
+                                 double front[]);
+void triangular_pieces_add_avx2(const piece_form *, const piece_element *, double work[],
+                                double front[]);
+/* Eliminates the first node of `front` into kept[piece_kept x lanes], counts negative pivots in
+ * negative[lanes], and moves the next node to its place. kept NULL: the node is the start, which
+ * has no relative motion. Returns 0 if a pivot is zero or not finite. */
+int triangular_pieces_next_plain(const piece_form *, double front[], double kept[], int negative[]);
+int triangular_pieces_next_avx2(const piece_form *, double front[], double kept[], int negative[]);
+/* Reduces the loads r[blocks x joint x lanes] on the eliminated nodes to loads on the two ends of a
+ * piece: ends[2 x joint x lanes]. `expand` computes the motions from r of `reduce` and the motions
+ * of the ends. arm[(blocks + 2) x 3 x lanes] */
+void triangular_pieces_reduce_plain(const piece_form *, int blocks, const double kept[],
+                                    const double arm[], double r[], double ends[]);
+void triangular_pieces_reduce_avx2(const piece_form *, int blocks, const double kept[],
+                                   const double arm[], double r[], double ends[]);
+void triangular_pieces_expand_plain(const piece_form *, int blocks, const double kept[],
+                                    const double arm[], const double ends[], double r[]);
+void triangular_pieces_expand_avx2(const piece_form *, int blocks, const double kept[],
+                                   const double arm[], const double ends[], double r[]);
+
+typedef struct piece_group {
+    int first, pieces, elements; /* first element, number of pieces, and elements of each */
+    int link;                    /* index of the first piece among those of the member */
+    int blocks;                  /* number of eliminated nodes of a piece */
+    double *kept;                /* [blocks x piece_kept x lanes] */
+    double *arm;                 /* [(blocks + 2) x 3 x lanes] */
+} piece_group;
+
 typedef struct condensed_member {
     /* element from the first node of the first element to the last node of the last element */
     mesh_element ends;
     mesh_triad triad[2];
-    int first, links, joint, y;
+    int first, elements, groups, links; /* links: number of pieces */
+    piece_form form;
+    piece_group *group;
     chain *chain;
+    double *r; /* [links x joint] loads on the ends of pieces, then their motions */
 } condensed_member;
+
+status pieces_alloc(condensed_member *, fault *);
+void pieces_free(condensed_member *);
+/* Builds the chain of the pieces. force[14]: internal forces at the ends of the member in the
+ * state.
+ */
+status pieces_fill(const equations *, const model_state *, condensed_member *, double path,
+                   double force[], fault *);
+/* Reduces loads x on the coordinates of the member to loads ends[2 x joint] on its ends.
+ * pieces_expand computes the motions from those of the ends. */
+void pieces_reduce(const model *, condensed_member *, double x[], double ends[]);
+void pieces_expand(const model *, condensed_member *, const double ends[], double x[]);
+/* Adds the numbers of entries and operations of the factors of the pieces. */
+void pieces_count(const condensed_member *, factor_counts *);
 
 struct condensation {
     const equations *eq;
     const model *m;
     const model_state *at;
     int members, all, unknowns;
-    int lent; /* 1: another condensation owns `chains` and `r` */
+    int lent; /* 1: another condensation owns the pieces of the members */
     condensed_member *member;
     int *number;   /* [all] index among the end coordinates; NONE: not an end coordinate */
     int *unknown;  /* [unknowns] coordinates of the reduced system */
@@ -448,7 +531,6 @@ struct condensation {
     sparse inside; /* matrix of the unknowns */
     int *from;     /* [entries of inside] positions in K */
     matrix_factor *factor;
-    double *r; /* [links x y] work space for the longest member: first loads, then displacements */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */
     double *end;    /* [members x MEMBER_COLUMNS] forces on the ends */
@@ -469,19 +551,6 @@ void linear_springs_geometric_stiffness(const model *, const double sigma[],
 double linear_springs_energy2(const model *, const double x[]);
 double linear_springs_rounding(const model *, const double x[]);
 double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
-
-/* Tangent J^T C J + H of an element in the coordinates of its nodes (element.h). */
-typedef struct link_element {
-    int nodes, strains, joint; /* joint: number of leading coordinates of each node that are used */
-    const double *J, *C, *H;   /* [strains x 7 nodes], [strains x strains], [7 nodes x 7 nodes] */
-    const double *r;           /* [nodes x 3] positions of the nodes [m] */
-} link_element;
-
-/* Makes the element a link. The rigid motion R of the element causes strains E = J R. Without
- * warping, these are rounding errors. The element then moves by R + d with d = -F (J_y^T C E + (H
- * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). Entries of the size of K are
- * not subtracted. SINGULAR: the element, clamped at its first node, is in a critical state. */
-status link_of(const link_element *, chain_link *, fault *);
 
 /* Returns 1 if released ends or constraints make the undeformed structure with its supports a
  * mechanism. Sets *node to the node with the largest motion. If no node moves, sets *node to -1 and

@@ -5,40 +5,13 @@
 
 #include "elements/math/dense.h"
 
-static void gather_loads(const condensation *s, const condensed_member *of, const double x[])
-{
-    const int c = of->joint, nodes = model_nodes(s->m);
-    for (int i = 0; i < of->links; i++)
-        for (int k = 1; k < nodes; k++)
-            for (int j = 0; j < c; j++) {
-                const int index =
-                    model_element(s->m, of->first + i)->index[NODE_COORDINATES * k + j];
-                const int end = i + 1 == of->links && k + 1 == nodes;
-                s->r[(i * (nodes - 1) + k - 1) * c + j] = end || index == NONE ? 0 : x[index];
-            }
-}
-
-static void scatter_motions(const condensation *s, const condensed_member *of, double x[])
-{
-    const int c = of->joint, nodes = model_nodes(s->m);
-    for (int i = 0; i < of->links; i++)
-        for (int k = 1; k < nodes; k++)
-            for (int j = 0; j < c && !(i + 1 == of->links && k + 1 == nodes); j++) {
-                const int index =
-                    model_element(s->m, of->first + i)->index[NODE_COORDINATES * k + j];
-                if (index != NONE)
-                    x[index] = s->r[(i * (nodes - 1) + k - 1) * c + j];
-            }
-}
-
 static void reduce(condensation *s, double x[])
 {
     for (int i = 0; i < s->members; i++) {
-        const condensed_member *of = &s->member[i];
-        const int c = of->joint;
-        double ends[CHAIN_LINK], force[MODEL_MAX_COORDINATES] = {0};
-        gather_loads(s, of, x);
-        chain_reduce(of->chain, s->r, ends);
+        condensed_member *of = &s->member[i];
+        const int c = of->form.joint;
+        double ends[2 * CHAIN_JOINT], force[MODEL_MAX_COORDINATES] = {0};
+        pieces_reduce(s->m, of, x, ends);
         for (int k = 0; k < 2 * c; k++)
             force[NODE_COORDINATES * (k / c) + k % c] = ends[k];
         eliminate_forces(s->m, s->at, &of->ends, force);
@@ -51,15 +24,13 @@ static void reduce(condensation *s, double x[])
 static void expand(condensation *s, double x[])
 {
     for (int i = 0; i < s->members; i++) {
-        const condensed_member *of = &s->member[i];
-        const int c = of->joint;
-        double ends[CHAIN_LINK], local[2 * NODE_COORDINATES];
+        condensed_member *of = &s->member[i];
+        const int c = of->form.joint;
+        double ends[2 * CHAIN_JOINT], local[2 * NODE_COORDINATES];
         kinematics_local(s->m, s->at, &of->ends, x, local);
         for (int k = 0; k < 2 * c; k++)
             ends[k] = local[NODE_COORDINATES * (k / c) + k % c];
-        gather_loads(s, of, x);
-        chain_expand(of->chain, s->r, ends, s->r);
-        scatter_motions(s, of, x);
+        pieces_expand(s->m, of, ends, x);
     }
 }
 
@@ -112,6 +83,8 @@ factor_counts condensation_count(const condensation *s)
         counts.negative_pivots += s->negative;
     if (s->negative % 2 != 0)
         counts.determinant = -counts.determinant;
+    for (int i = 0; i < s->members; i++)
+        pieces_count(&s->member[i], &counts);
     counts.factorisations = s->factorisations;
     return counts;
 }

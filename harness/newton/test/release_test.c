@@ -326,9 +326,14 @@ static void advance_tests(void)
     loose_about_the_far_end(registry_formulations[0]);
 }
 
-static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
+static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact:nodes=3",
                                            "collocation"};
-enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
+/* IN_PIECES: elements of pieces of two elements, and of one */
+enum {
+    FORMULATIONS = sizeof formulations / sizeof formulations[0],
+    NEVER = 1000000,
+    IN_PIECES = 9
+};
 
 static void shorten(const case_type *type, double parameter[])
 {
@@ -393,9 +398,11 @@ static int both_ways(const case_type *type, const char *of, int elements)
 static void cases(void)
 {
     int compared = 0;
-    for (int i = 0; registry_cases[i] != NULL; i++)
+    for (int i = 0; registry_cases[i] != NULL; i++) {
         for (int k = 0; k < FORMULATIONS; k++)
             compared += both_ways(registry_cases[i], formulations[k], 2);
+        compared += both_ways(registry_cases[i], formulations[i % FORMULATIONS], IN_PIECES);
+    }
     gsl_test(compared < 500, "%d values of cases were compared", compared);
 }
 
