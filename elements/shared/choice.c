@@ -92,7 +92,7 @@ status choice_unknown(const char *what, const char *word,
                       const char *(*next)(const void *context, int i), fault *f)
 {
     const char *near = choice_nearest(word, next, NULL);
-    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s; 'beamwork list' shows the names",
-                     what, word, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-                     near != NULL ? "'?" : "");
+    return fault_set(f, STATUS_REFUSED, "unknown %s '%s'%s%s%s'beamwork list' shows the names",
+                     what, word, near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'? " : "; ");
 }

@@ -13,7 +13,7 @@ int number_read(const char *text, const char **end, double *out);
 int choice_index(const char *choices, const char *word);
 void choice_name(const char *choices, int index, char *text, int size);
 
-/* Returns REFUSED with the message "unknown WHAT 'WORD', did you mean 'NEAREST'?; 'beamwork list'
+/* Returns REFUSED with the message "unknown WHAT 'WORD'; did you mean 'NEAREST'? 'beamwork list'
  * shows the names", without the question if no candidate is similar. `next` is that of
  * choice_nearest, with the context NULL. */
 status choice_unknown(const char *what, const char *word,

@@ -35,7 +35,7 @@ static status no_motion(const char *name, fault *f)
 {
     return fault_set(
         f, STATUS_REFUSED,
-        "case %s has no transient analysis; 'beamwork list' shows the cases with motions", name);
+        "case %s has no transient analysis; choose a case with a motion, such as pendulum", name);
 }
 
 status integrators_plan_default(integrators_plan_request *r, fault *f)

@@ -113,8 +113,8 @@ assignment_list formulation_options(const element_type *type)
 {
     assignment_list list = {.what = "option",
                             .owner = type->name,
-                            .option = "",
-                            .shown_by = "formulations",
+                            .option = formulations_is_loaded(type) ? "--element FILE " : "",
+                            .shown_by = type->name,
                             .separator = ','};
     int parts = 0;
     for (; parts < PARAMETER_PARTS - 1 && type->options[parts] != NULL; parts++)
@@ -463,7 +463,8 @@ status select_all_met(const char *expression, const select_words *words, fault *
     const char *near = nearest(word);
     return fault_set(
         f, STATUS_REFUSED,
-        "selection '%.60s': the name '%.60s' is unknown%s%s%s; 'beamwork list' shows the names",
-        expression, word, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-        near != NULL ? "'?" : "");
+        "selection '%.60s': the name '%.60s' is unknown%s%s%s'beamwork list' shows cases and "
+        "formulations and, with CASE or --scene FILE, the quantities",
+        expression, word, near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+        near != NULL ? "'? " : "; ");
 }

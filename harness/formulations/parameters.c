@@ -148,9 +148,9 @@ static status unknown(const assignment_list *l, const char *name, fault *f)
     assignment_shown(l, shown);
     const char *near = choice_nearest(name, name_at, l);
     return fault_set(f, STATUS_REFUSED,
-                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %.170s' shows the names", l->owner,
-                     l->what, name, near != NULL ? ", did you mean '" : "",
-                     near != NULL ? near : "", near != NULL ? "'?" : "", shown);
+                     "%s has no %s '%.60s'%s%s%s'beamwork list %.170s' shows the names", l->owner,
+                     l->what, name, near != NULL ? "; did you mean '" : "",
+                     near != NULL ? near : "", near != NULL ? "'? " : "; ", shown);
 }
 
 status assignment_set(const assignment_list *l, const char *text, double value[], int any[],

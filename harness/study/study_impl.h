@@ -335,6 +335,8 @@ int truth_index_next(const truths *t, int i);
 /* Returns the name of the first column of a row whose value is invalid; NULL: all values are
  * valid. */
 const char *truth_rows_wrong(const truth *row);
+/* Returns the words that the column may contain, in the form "a|b"; NULL: a column of numbers. */
+const char *truth_words(const char *column);
 /* Reads row[table->rows], which the caller has set to zero. FAULT: a column is invalid, or the
  * defaults of the case of a row have changed. truths_free releases the rows that were read, even
  * after a failure. */

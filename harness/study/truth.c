@@ -216,6 +216,22 @@ static int elements_fit(const truth *row)
     return row->elements >= 0 && (row->elements > 0) == of_formulation;
 }
 
+static const char models[] = "same|other";
+
+const char *truth_words(const char *column)
+{
+    const struct {
+        const char *column, *words;
+    } all[] = {{"kind", truth_kinds},
+               {"model", models},
+               {"theory", SCENE_SHEAR_THEORIES},
+               {"convention", conventions}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strcmp(all[i].column, column) == 0)
+            return all[i].words;
+    return NULL;
+}
+
 const char *truth_rows_wrong(const truth *row)
 {
     if (!isfinite(row->value))
@@ -228,7 +244,7 @@ const char *truth_rows_wrong(const truth *row)
         return "kind";
     if (!elements_fit(row))
         return "elements";
-    if (!is_known(row->model, "same|other"))
+    if (!is_known(row->model, models))
         return "model";
     if (!is_known_or_empty(row->theory, SCENE_SHEAR_THEORIES))
         return "theory";

@@ -221,7 +221,8 @@ static int check_condition(deviations_reader *r, const rule *one)
     if (bad)
         WRONG(r, CONDITION,
               "condition '%.60s' is neither a feature nor a comparison with a parameter of the "
-              "cases; correct the condition ('beamwork list CASE' shows the parameters)",
+              "cases; correct the condition ('beamwork list', with CASE or --scene FILE, shows the "
+              "parameters)",
               word);
     free(all);
     return !bad;
@@ -352,7 +353,8 @@ static const char *quantity_name_at(const void *context, int i)
 const char *user_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT])
 {
     return mistakes_remedy(choice_nearest(name, quantity_name_at, s),
-                           "; 'beamwork list CASE' shows the quantities", text);
+                           "; 'beamwork list', with CASE or --scene FILE, shows the quantities",
+                           text);
 }
 
 static int quotes_are_even(const char *line)

@@ -155,6 +155,16 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
+static void wrong_word(truths_reader *r, int column)
+{
+    const char *words = truth_words(names[column]), *given = r->row->field[column];
+    if (words != NULL)
+        WRONG(r, column, "%s '%.40s' is unknown; give one of %s", names[column], given, words);
+    else
+        WRONG(r, column, "%s '%.40s' is negative; give zero or a positive number", names[column],
+              given);
+}
+
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);
@@ -165,8 +175,7 @@ static void check_row(truths_reader *r, const truth *row)
                   "requires a formulation, and any other reference value must have neither; fill "
                   "or empty these columns");
         else if (same(names[i], wrong))
-            WRONG(r, i, "%s '%.40s' is unknown; 'beamwork explain truth' lists the known words",
-                  wrong, r->row->field[i]);
+            wrong_word(r, i);
     const truth *other = r->good ? known(r->t, row) : NULL;
     if (other != NULL)
         WRONG(r, QUANTITY,

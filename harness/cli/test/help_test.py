@@ -256,10 +256,21 @@ class Printed(ProgramTest):
             self.run_all(done.stdout, 1, self.element)
 
     def test_what_is_shown_by(self):
+        near = "critical_loadd"
         for words in (("solve", "--scene", self.scene, "--set", "foo=1"), ("sweep", "--scene", self.scene),
-                      ("sweep", "--scene", self.scene, "--vary", "foo")):
+                      ("sweep", "--scene", self.scene, "--vary", "foo"), ("solve", "--scene", self.scene, "-k", near),
+                      ("converge", "--scene", self.scene, "-k", near)):
             hint = re.search(r"'(beamwork list .*)' shows", self.refused_line(*words))
             self.run_all(hint[1], 1, self.scene)
+        for words, shown in ((("-f", "beamw:foo=1"), "newton="),
+                             (("--element", self.element, "-f", "timoshenko:foo=1"), "newton="),
+                             (("-f", "foo"), "collocation"), (("--set", "foo=1"), "load")):
+            hint = re.search(r"'beamwork (list.*)' shows", self.refused_line("solve", "elastica", *words))
+            command = hint[1].replace("FILE", shlex.quote(str(self.element)))
+            self.assertIn(shown, self.answered(*shlex.split(command)).stdout)
+        self.assertNotIn("FILE", self.refused_line("motion", "elastica"))
+        case = self.refused_line("motion", "elastica").split()[-1]
+        self.assertIn("motion", self.answered("list", case).stdout)
         hint = re.search(r"'(beamwork merge .*) -o FILE'", self.refused_line(
             "verify", "-k", "=elastica and =default and =beamw", "--into", "a folder", "-o", "r.h5"))
         self.assertEqual(shlex.split(hint[1]), ["beamwork", "merge", "a folder"])

@@ -165,7 +165,7 @@ static void unknown_words(void)
         const char *expression, *message;
     } refused[] = {
         {"c_colunm", "did you mean 'c_column'?"},
-        {"(beamw or sheet_thrid)", "'sheet_thrid' is unknown, did you mean 'sheet_third'?"},
+        {"(beamw or sheet_thrid)", "'sheet_thrid' is unknown; did you mean 'sheet_third'?"},
         {"beamw and not c_column/defalut", "'c_column/defalut'"},
         {"elastica or hexapd/default", "did you mean 'hexapod'?"},
         {"load=4", "'load=4'"},

@@ -216,14 +216,14 @@ class Truths(Own):
                 (("2:1", "did you mean 'elastica'"), good.replace("elastica", "elastca")),
                 (("2:2", "did you mean 'load'"), good.replace("load", "lod")),
                 (("2:3", "did you mean 'beamw'"), good.replace("0.6,,,,", "0.6,beamv,,4,")),
-                (("2:4", "theory"), good.replace("0.6,,,", "0.6,,euler,")),
+                (("2:4", "theory 'euler' is unknown; give one of engesser|haringx"), good.replace("0.6,,,", "0.6,,euler,")),
                 (("2:5", "elements"), good.replace("0.6,,,,", "0.6,,,4,")),
                 (("2:6", "did you mean 'w_over_L'"), good.replace("w_over_L", "w_ovr_L")),
                 (("2:8", "finite"), good.replace("0.5", "nan")),
                 (("2:9", "'1'"), good.replace("0.5,1", "0.5,m")),
-                (("2:10", "uncertainty"), good.replace("1e-9", "-1e-9")),
-                (("2:11", "kind"), good.replace("independent", "guess")),
-                (("2:12", "model"), good.replace("same", "mine")),
+                (("2:10", "uncertainty '-1e-9' is negative; give zero or a positive number"), good.replace("1e-9", "-1e-9")),
+                (("2:11", "kind 'guess' is unknown; give one of exact|predicted|independent|"), good.replace("independent", "guess")),
+                (("2:12", "model 'mine' is unknown; give one of same|other"), good.replace("same", "mine")),
                 (("2:14", "source"), good.replace("my program", "")),
                 (("2:6", "already exists"), good.replace("load=0.6", "").replace(
                     "independent", "exact"))):

@@ -57,7 +57,7 @@ static void parameters(void)
              "one value each: %s", f.text);
     formulation chosen;
     gsl_test(formulation_parse("beamw:newtn=dense", &chosen, &f) != STATUS_REFUSED ||
-                 strstr(f.text, "beamw has no option 'newtn', did you mean 'newton'?") == NULL,
+                 strstr(f.text, "beamw has no option 'newtn'; did you mean 'newton'?") == NULL,
              "an option that all take is known: %s", f.text);
     gsl_test(formulation_parse("beamw:newton=mixed,newton=dense", &chosen, &f) != STATUS_REFUSED ||
                  strstr(f.text, "newton of beamw is given twice") == NULL,
