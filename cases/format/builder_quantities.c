@@ -58,10 +58,10 @@ static void read_unit(const fields *f, scene_quantity *q)
     if (q->transform == SCENE_PSD)
         make_density(own);
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
-        if (!f->b->units.given)
-            units_check(unit, f->b->mistakes);
         const int factor = strcmp(own, "1") == 0,
                   kept = factor && is_kept(&f->b->units, unit->text);
+        if (factor && !f->b->units.given)
+            units_check(unit, f->b->mistakes);
         if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
             mistake_unit(f, unit, own);
     }

@@ -122,7 +122,9 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
         return fault_set(
             f, STATUS_REFUSED,
             "a reaction of %s requires a motion that drives only this component, but there is "
-            "none; replace 'hold' at the node with a motion with value: [0, 0]",
+            "none; remove the component from 'hold', and 'drive' it by a motion with path: [0, 1] "
+            "and "
+            "value: [0, 0]",
             scene_called(s, SCENE_NODES, r->node).text);
     return nodes == 1
                ? STATUS_OK
