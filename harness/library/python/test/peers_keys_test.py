@@ -103,6 +103,14 @@ def pinned():
     return made, {"root Ruy": -6 * L / 2, "root Rrz": 0.0, "tip Ruy": -6 * L / 2}
 
 
+def fixed():
+    """A bar between two clamps, from one of which a hinge frees it."""
+    made = cantilever({"hold": "all"})
+    made.members["bar"]["release"] = {"from_": ["rz"]}
+    made.loads["q"] = {"distributed": [0, 6.0, 0], "on": "bar"}
+    return made, {"root Ruy": -6 * 3 * L / 8, "root Rrz": 0.0, "tip Ruy": -6 * 5 * L / 8, "tip Rrz": 6 * L**2 / 8}
+
+
 def tapered(linear):
     """A wedge, half as thick at its tip as at its root. linear: with an axial force that would stiffen it."""
     made = cantilever()
@@ -117,7 +125,7 @@ def tapered(linear):
     return made, wanted
 
 
-CASES = {"taper": ("taper", tapered), "release": ("members.release", propped), "pinned": ("members.release", pinned), "springs": ("springs", sprung), "gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
+CASES = {"taper": ("taper", tapered), "release": ("members.release", propped), "pinned": ("members.release", pinned), "fixed": ("members.release", fixed), "springs": ("springs", sprung), "gravity": ("loads.gravity", weight), "temperature": ("loads.temperature", heated),
          "part": ("loads.temperature", heated_in_part), "drive": ("", settled), "axes": ("loads.to_value", own_axes), "rotation": ("", hinged)}
 DRIVEN = {"pyelastica"}  # rods with a clamped and a free end only
 
@@ -139,7 +147,7 @@ class Keys(PeerTest):
         if found.missing:
             self.skipTest(found.missing)
         run = found.runs[-1]
-        if "space" in run.get("refusal", "") and "plane" in element.summary:
+        if ("space" in run.get("refusal", "") and "plane" in element.summary) or (kind == "static" and "in large motions" in run.get("refusal", "")):
             return
         self.assertIn("values", run, run)
         for key, want in wanted.items():
@@ -184,7 +192,10 @@ class Keys(PeerTest):
             place = self.folder / "large.yaml"
             made.write(place)
             ours = {q["quantity"]: q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 8)["quantities"]}
-            for peer, name in peers.chosen(["opensees:elasticBeamColumn", "opensees:forceBeamColumn", "xara:exact_3"]):
+            for peer, name in peers.chosen(["opensees:elasticBeamColumn", "opensees:forceBeamColumn", "xara:exact_3", "exudyn:exact_2d_3",
+                                             "exudyn:exact_3d"]):
+                if name == "exact_2d_3" and release != ["rz"]:
+                    continue
                 with self.subTest(peer=peer, element=name, release=release):
                     found = peers.solve(self.data(made), peer, name, [8, 16], rounds=1)
                     if found.missing:
@@ -193,7 +204,7 @@ class Keys(PeerTest):
                     coarse, fine = (run["values"] for run in found.runs)
                     for key, value in ours.items():
                         size = {"u": L, "R": 2 * EIZ / L**2}[key[0]]
-                        got = (4 * fine[key] - coarse[key]) / 3 if name != "exact_3" else fine[key]
+                        got = (4 * fine[key] - coarse[key]) / 3 if name[-2:] != "_3" else fine[key]
                         self.assertAlmostEqual(got / size, value / size, delta=3e-4, msg=key)
 
 

@@ -74,7 +74,10 @@ def _moment_stiffness(M: Sequence[float]) -> list[list[float]]:
     return [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
 
 
-def _require_dead_loads(model: Any, analysis: Analysis) -> None:
+def _require_plain(model: Any, analysis: Analysis) -> None:
+    """Raises Refused if the tangent of a loaded state lacks effects of follower loads, or of moments in hinges in space."""
+    if not model.name.startswith("exact_2d") and any("release" in member.raw for member in model.scene.members.values()):
+        raise Refused(f"release: the driver has no {analysis.kind} analysis in space about a state of members with hinges")
     for load in model.scene.loads:
         if load.follower:
             raise Refused(f"follower: the driver has no {analysis.kind} analysis with follower loads ({load.name})")
@@ -84,7 +87,7 @@ def compliance(model: Any, analysis: Analysis) -> list[State]:
     """Returns the compliance at a node from the tangents of the states. Constraints of released components are omitted; the
     forces and moments that replace them are constant."""
     if analysis.about is not None:
-        _require_dead_loads(model, analysis)
+        _require_plain(model, analysis)
     if model.name.startswith("exact_2d"):
         return [State(compliance=_plane_compliance(model, analysis, q)) for _, q, _ in model.states_about(analysis)]
     return [State(compliance=_space_compliance(model, analysis, *one)) for one in model.states_about(analysis)]
@@ -174,7 +177,7 @@ def modal(model: Any, analysis: Analysis) -> Answer:
     if model.name.startswith("exact_2d") and scene.plane != "xy":
         raise Refused("modal: the plane beam has no modes out of its plane; state 'plane: xy' in the scene")
     if analysis.about is not None:
-        _require_dead_loads(model, analysis)
+        _require_plain(model, analysis)
         if not model.name.startswith("exact_2d") and any(load.kind.endswith("moment") for load in scene.loads):
             raise Refused("about: the driver has no modes in space under moments, for which the tangent is not symmetric")
     rigid = rigid_motions(scene, mesh)

@@ -6,6 +6,7 @@ from typing import Any
 
 from . import _exudyn_motion, _motion
 from ._exudyn_model import Steps, check_plane, shear_of
+from ._hinges import hinges, idle
 from .data import COMPONENTS, Matrix, Mesh, MeshElement, Scene, State, rotation
 
 
@@ -21,14 +22,16 @@ class Plane(Steps):
                 at[k] = [(a + b) / 2 for a, b in zip(at[element.nodes[0]], at[element.nodes[-1]])]
         self.nodes = [self.add("NodeRigidBody2D", referenceCoordinates=[*at[node.number][:2], 0]) for node in mesh.nodes]
         self.node_at = dict(enumerate(self.nodes))
-        for element in mesh.elements:
+        ends = self._hinges()
+        for index, element in enumerate(mesh.elements):
             s, shear = element.member.section, shear_of(element.member.section, scene)
             z = abs(element.R[2][2]) > 0.5
             chord = math.dist(*(mesh.nodes[element.nodes[k]].at for k in (0, -1)))
             self.beams.append((element, self.add(
-                "ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes], length=chord,
+                "ObjectBeamGeometricallyExact2D", nodeNumbers=ends[index], length=chord,
                 bendingStiffness=s.EIz if z else s.EIy, axialStiffness=s.EA, shearStiffness=shear[0 if z else 1],
                 massPerLength=s.rho_A, crossSectionInertia=_exudyn_motion.inertia(scene, s)[2 if z else 1], includeReferenceRotations=False)))
+        loose = idle(scene)
         for node in scene.nodes.values():
             number = self.nodes[mesh.node_of[node.name]]
             mass, inertia = _exudyn_motion.body(node)
@@ -36,18 +39,32 @@ class Plane(Steps):
                 self.add("ObjectRigidBody2D", nodeNumber=number, physicsMass=mass, physicsInertia=inertia[2])
             for coordinate, component in enumerate((0, 1, 5)):
                 word = COMPONENTS[component]
-                if word in node.hold or word in node.drive:
+                if word in node.hold or word in node.drive or word in loose.get(node.name, ()):
                     self.constrain(node.name, number, coordinate, component, node.drive.get(word, ""))
         for spring in scene.springs:
             for coordinate, component in enumerate((0, 1, 5)):
                 if spring.stiffness[component] != 0:
-                    ends = [self.add("MarkerNodeCoordinate", nodeNumber=k, coordinate=c)
+                    both = [self.add("MarkerNodeCoordinate", nodeNumber=k, coordinate=c)
                             for k, c in ((self.ground, 0), (self.node_of(spring.end), coordinate))]
-                    self.add("CoordinateSpringDamper", markerNumbers=ends, stiffness=spring.stiffness[component])
+                    self.add("CoordinateSpringDamper", markerNumbers=both, stiffness=spring.stiffness[component])
         markers = {node: self.add("MarkerNodeRigid", nodeNumber=self.nodes[mesh.node_of[node]]) for node in scene.nodes}
         self.put_loads(markers.__getitem__)
         self.add_sensors()
-        self.assemble(3 * len(mesh.nodes))
+        self.assemble(3 * len(mesh.nodes) + len(self.released))
+
+    def _hinges(self) -> list[list[int]]:
+        """Adds a node for each released end. Returns the nodes of all elements."""
+        ends = [[self.nodes[k] for k in element.nodes] for element in self.mesh.elements]
+        self.released: list[int] = []
+        for hinge in hinges(self.scene, self.mesh):
+            number = self.add("NodeRigidBody2D", referenceCoordinates=[*self.mesh.nodes[hinge.node].at[:2], 0])
+            for coordinate, word in enumerate(("ux", "uy", "rz")):
+                if word not in hinge.components:
+                    both = [self.add("MarkerNodeCoordinate", nodeNumber=k, coordinate=coordinate) for k in (self.nodes[hinge.node], number)]
+                    self.add("CoordinateConstraint", markerNumbers=both)
+            ends[hinge.element][-hinge.end] = number
+            self.released.append(number)
+        return ends
 
     def node_of(self, name: str) -> int:
         return self.nodes[self.mesh.node_of[name]]
@@ -75,7 +92,7 @@ class Plane(Steps):
         return State(u, reaction, rate=rate)
 
     def all_nodes(self) -> list[tuple[str | None, int]]:
-        return [(node.name, self.nodes[node.number]) for node in self.mesh.nodes]
+        return [(node.name, self.nodes[node.number]) for node in self.mesh.nodes] + [(None, number) for number in self.released]
 
     def coordinate_rates(self, node: int, v: list[float], w: list[float]) -> list[float]:
         return [v[0], v[1], w[2]]

@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _exudyn_motion, _motion
 from ._exudyn_joint import torque_of
 from ._exudyn_model import Steps, shear_of
-from .data import (COMPONENTS, Matrix, Mesh, MeshElement, Node, Refused, Scene, Section, Spring, State, Vector, product, rotation_vector, times,
+from ._hinges import hinges, idle
+from .data import (COMPONENTS, Matrix, Mesh, MeshElement, Node, Refused, Scene, Section, Spring, State, Vector, product, rotation, rotation_vector, times,
                    transposed)
 
 
@@ -37,19 +38,32 @@ class Space(Steps):
         self.ground_marker = self.add("MarkerNodeRigid", nodeNumber=self.ground)
         markers: dict[str, int] = {}
         joints = 0
+        released = {made[mesh.elements[h.element].member.name, h.node]: h.own for h in hinges(scene, mesh)}
+        self.loose = idle(scene)
         for node in scene.nodes.values():
+            self._order(node, released)
             first, *others = [self.add("MarkerNodeRigid", nodeNumber=k) for k in self.of[node.name]]
             markers[node.name] = first
             self._body(node)
             for marker, k in zip(others, self.of[node.name][1:]):
-                joints += 6
-                self._joint(first, marker, self.frame[self.of[node.name][0]], self.frame[k], [1] * 6, node.name)
+                axes = [int(c not in released.get(k, ())) for c in COMPONENTS]
+                joints += sum(axes)
+                self._joint(first, marker, self.frame[self.of[node.name][0]], self.frame[k], axes, self.frame[k])
             self._support(node.name, first)
         for spring in scene.springs:
             self._spring(spring, markers[spring.end])
         self.put_loads(markers.__getitem__)
         self.add_sensors()
-        self.assemble(6 * len(made) - joints if not self.ancf else 9 * len(made) - joints)
+        self.assemble((9 if self.ancf else 6) * len(self.frame) - joints)
+
+    def _order(self, node: Node, released: Mapping[int, frozenset[str]]) -> None:
+        """Puts an end without hinge first, which stands for the node of the scene. If there is none, adds a node."""
+        numbers = sorted(self.of[node.name], key=lambda k: k in released)
+        if numbers[0] in released:
+            if _exudyn_motion.moves(self.scene):
+                raise Refused(f"release: all members have hinges at {node.name}, and nodes without mass do not move in Exudyn")
+            numbers.insert(0, self.add_node(node.at, rotation([0, 0, 0])))
+        self.of[node.name] = numbers
 
     def node_of(self, name: str) -> int:
         return self.of[name][0]
@@ -100,10 +114,10 @@ class Space(Steps):
         self.add("RigidBodySpringDamper", markerNumbers=[ground, marker], stiffness=numpy.diag([float(k) for k in spring.stiffness]),
                  rotationMarker1=transposed(self.frame[number]))
 
-    def _joint(self, p: int, q: int, P: Matrix, Q: Matrix, axes: list[int], name: str) -> int:
-        del name
-        return self.add("GenericJoint", markerNumbers=[p, q], constrainedAxes=axes, rotationMarker0=transposed(P),
-                        rotationMarker1=transposed(Q))
+    def _joint(self, p: int, q: int, P: Matrix, Q: Matrix, axes: list[int], along: Matrix) -> int:
+        """Adds a joint. P, Q: axes of both markers. along: axes of the joint."""
+        return self.add("GenericJoint", markerNumbers=[p, q], constrainedAxes=axes, rotationMarker0=product(transposed(P), along),
+                        rotationMarker1=product(transposed(Q), along))
 
     def _support(self, name: str, marker: int) -> None:
         node = self.scene.nodes[name]
@@ -113,7 +127,8 @@ class Space(Steps):
                 self.constrain(name, self.of[name][0], k, k, motion)
             elif any(v != 0 for v in self.scene.motions[motion].get("value", ())):
                 raise Refused(f"drive: the driver does not drive {word} in space along a path")
-        axes = [int(c in node.hold or (c in node.drive and c[0] == "r")) for c in COMPONENTS]
+        held = node.hold | self.loose.get(name, frozenset())
+        axes = [int(c in held or (c in node.drive and c[0] == "r")) for c in COMPONENTS]
         if sum(axes[3:]) == 1 and not self._about_normal(axes) and any(a.kind not in ("modal", "buckling") or a.about
                                                                        for a in self.scene.analyses.values()):
             raise Refused(f"hold: the driver does not hold one rotation of {name}")
@@ -121,7 +136,7 @@ class Space(Steps):
             frame = self.frame[self.of[name][0]]
             ground = self.add("MarkerNodeRigid", nodeNumber=self.add(
                 "NodePointGround", referenceCoordinates=list(node.at)))
-            joint = self._joint(ground, marker, [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]], frame, axes, name)
+            joint = self._joint(ground, marker, rotation([0, 0, 0]), frame, axes, rotation([0, 0, 0]))
             self.held.setdefault(name, []).append((joint, [k for k in range(6) if axes[k]]))
             self._turn(name, joint, axes)
 

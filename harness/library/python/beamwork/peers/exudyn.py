@@ -15,7 +15,7 @@ REQUIRES = ("exudyn==1.13.6", )
 _ANALYSES = frozenset({"static", "modal", "continuation"})
 _PHYSICS = frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
 _FEW, _ALL = frozenset({"loads.follower", "modal.about"}), _ANALYSES | {"motion"}
-_KEYS = KEYS | _FEW | {"springs", "nodes.mass", "nodes.inertia"}
+_KEYS = KEYS | _FEW | {"springs", "members.release", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
     "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, keys=_KEYS | {"plane"}),
     "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL | {"compliance"}, 2, _KEYS | {"plane"}),

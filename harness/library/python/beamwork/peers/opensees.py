@@ -170,7 +170,7 @@ class Corotational(Model):
             return answer
         if self.base or self.linear != (analysis.kind == "linear"):
             self.build(analysis.kind == "linear")
-        if analysis.kind == "linear":
+        if analysis.kind == "linear" and not self.name.startswith("force"):  # whose element loads act fully after an iteration
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
         states, iterations, path = [], 0, 0.0
