@@ -113,6 +113,47 @@ def _flying() -> Scene:
     return made
 
 
+def _hinged() -> Scene:
+    """Two clamped bars that a hinge joins: each one carries half of the load."""
+    made = _linear({"force": [0, F, 0]}, "uy")
+    made.nodes["end"] = {"at": [2 * L, 0, 0], "hold": "all"}
+    made.members["other"] = {"from_": "tip", "to": "end", "section": "bar", "y": [0, 1, 0], "release": {"from_": ["rz"]}}
+    return made
+
+
+def _sprung() -> Scene:
+    made = _linear({"force": [0, F, 0]}, "uy")
+    made.springs["spring"] = {"to": "tip", "stiffness": [0, 3 * EI / L**3, 0, 0, 0, 0]}
+    return made
+
+
+def _heavy() -> Scene:
+    made = _cantilever({"g": {"gravity": [0, 9.81, 0], "on": "all"}}, {"linear": {}}, _tip("uy"), mass=5.0)
+    return made
+
+
+def _heated() -> Scene:
+    made = _cantilever({"T": {"temperature": 10, "gradient": [100, 0], "on": "bar"}}, {"linear": {}}, _tip("uy"))
+    made.sections["bar"]["expansion"] = 1e-5
+    return made
+
+
+def _body() -> Scene:
+    """A cantilever with a density that is small compared with the mass at its tip."""
+    made = _cantilever({}, {"modal": {}}, {"frequency": {}}, ("trapeze", "wagner_torque", "rotary_inertia"), mass=1e5)
+    return made
+
+
+def _tapered() -> Scene:
+    """A wedge of rectangles, half as thick at its tip as at its root."""
+    made = _linear({"force": [F, 0, 0]}, "ux")
+    for name, thickness in (("bar", 0.1), ("thin", 0.05)):
+        made.sections[name] = {"rectangle": {"width": 0.1, "thickness": thickness}, "given": {"Iw": 0}, "young": E, "shear_modulus": G}
+    made.members["bar"]["section"] = ["bar", "thin"]
+    made.omit = [*made.omit, "shear"]
+    return made
+
+
 _BENT = EI * math.pi / 2 / L  # moment that bends the cantilever to a quarter of a circle
 _ARC = (3 * math.pi / 4 - 2) / EI + math.pi / 4 / EA  # integrals of (1 - sin s)^2/EI and sin(s)^2/EA over the quarter of a circle
 CASES: tuple[Case, ...] = (
@@ -122,6 +163,12 @@ CASES: tuple[Case, ...] = (
     ("distributed load", "cantilever under a small uniform load", lambda: _cantilever(
         {"q": {"distributed": [0, F, 0], "on": "bar"}}, {"linear": {}}, _tip("uy")), F * L**4 / 8 / EI),
     ("prescribed displacement", "reaction at the tip of a cantilever that is displaced there", _prescribed, 1e-4 * 3 * EI / L**3),
+    ("weight", "deflection of a cantilever with a mass at its tip, under its weight", _heavy,
+     9.81 * (RHO * A * L**4 / 8 + 5 * L**3 / 3) / EI),
+    ("temperature", "deflection of a cantilever whose temperature varies across the section", _heated, -1e-5 * 100 * L**2 / 2),
+    ("spring", "cantilever with a spring at its tip, as stiff as the cantilever", _sprung, F * L**3 / 6 / EI),
+    ("hinge", "two cantilevers that a hinge joins at their tips", _hinged, F * L**3 / 6 / EI),
+    ("taper", "extension of a wedge, half as thick at its tip as at its root", _tapered, F * 2 * L * math.log(2) / EA),
     ("coupled section", "rotation under an axial force, if the section couples axial force and bending", _coupled, _coupled_value()),
     ("initial curvature", "quarter of a circle under a small force at its end", _arc, F * _ARC),
     ("warping", "torsion of a cantilever whose root does not warp, k L = 3", _warping, F * L / GIT * (1 - math.tanh(3) / 3)),
@@ -134,6 +181,8 @@ CASES: tuple[Case, ...] = (
     ("frequency", "first frequency of a cantilever without rotary inertia", lambda: _cantilever(
         {}, {"modal": {}}, {"frequency": {}}, ("trapeze", "wagner_torque", "rotary_inertia")),
      1.8751040687119611**2 / (2 * math.pi * L**2) * math.sqrt(EI / RHO / A)),
+    ("body", "frequency of a cantilever with a mass at its tip that is 1250 times that of the bar", _body,
+     math.sqrt(3 * EI / (1e5 + 33 / 140 * RHO * A * L) / L**3) / (2 * math.pi)),
     ("motion", "rod that a force accelerates along its axis for 0.1 s, at the end of this time", _flying, 0.5 * 0.1**2),
 )
 
