@@ -6,19 +6,8 @@
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
-#include <klu.h>
 #include <math.h>
 #include <stdlib.h>
-
-static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
-                                       factor_counts *counts, fault *f);
-/* Factors the values. Returns OK, SINGULAR, or FAULT if out of memory. The first pivot order is
- * used again for all later matrices, without allocation, until pivot growth requires a new order.
- * *ratio: smallest magnitude of a pivot relative to the largest entry of its column, after every
- * row is divided by its largest entry. *row, *column: position of this pivot. */
-static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
-                                         factor_counts *counts, int *row, int *column,
-                                         double *ratio);
 
 struct matrix_factor {
     int n;
@@ -50,6 +39,11 @@ static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f)
 {
+    return factor_alloc_copies(pattern, 1, out, f);
+}
+
+status factor_alloc_copies(const sparse *pattern, int copies, matrix_factor **out, fault *f)
+{
     TRY(begin(pattern, out, f));
     matrix_factor *fa = *out;
     if (fa->n == 0)
@@ -58,7 +52,7 @@ status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f)
         return factor_symmetric_alloc(pattern, &fa->symmetric, &fa->counts, f);
     if (pattern->by_numbers)
         TRY(by_numbers_alloc(pattern, &fa->whole, f));
-    return factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
+    return factor_unsymmetric_alloc(pattern, copies, &fa->unsymmetric, &fa->counts, f);
 }
 
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
@@ -320,147 +314,4 @@ double factor_condition(matrix_factor *fa, const sparse *a)
     estimate = n == 0 ? 1 : norm * inverse_norm(&c, work + n, work + 2 * n);
     free(work);
     return estimate;
-}
-
-/* Factor of KLU, which scales every row by its largest entry and orders by AMD on A + A^T. Diagonal
- * pivots are preferred. */
-
-struct factor_unsymmetric {
-    int n;
-    klu_common common;
-    klu_symbolic *symbolic;
-    klu_numeric *numeric;
-    double *largest;
-};
-
-/* The pivot order is reused as long as the entries of U are below this factor times the entries of
- * the matrix. */
-static const double tolerable_growth = 1e4;
-
-static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
-                                       factor_counts *counts, fault *f)
-{
-    factor_unsymmetric *fu = *out = calloc(1, sizeof *fu);
-    if (fu == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
-    fu->n = pattern->n;
-    counts->negative_pivots = -1;
-    klu_defaults(&fu->common);
-    fu->largest = malloc((size_t)fu->n * sizeof *fu->largest);
-    fu->symbolic = klu_analyze(fu->n, pattern->column, pattern->row, &fu->common);
-    if (fu->largest != NULL && fu->symbolic != NULL)
-        return STATUS_OK;
-    if (fu->common.status == KLU_SINGULAR)
-        return fault_set(f, STATUS_SINGULAR,
-                         "the matrix is structurally singular, because a part is not supported; "
-                         "support this part");
-    return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
-}
-
-void factor_unsymmetric_free(factor_unsymmetric *fu)
-{
-    if (fu == NULL)
-        return;
-    klu_free_numeric(&fu->numeric, &fu->common);
-    klu_free_symbolic(&fu->symbolic, &fu->common);
-    free(fu->largest);
-    free(fu);
-}
-
-/* Factors `a` with the pivot order of an earlier matrix. Returns 0 if there is no earlier matrix,
- * or if this order is not accurate for `a`. */
-static int refactor(factor_unsymmetric *fu, const sparse *a)
-{
-    return fu->numeric != NULL &&
-           klu_refactor(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
-           fu->common.status == KLU_OK &&
-           klu_rgrowth(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
-           fu->common.rgrowth * tolerable_growth > 1;
-}
-
-static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts *counts)
-{
-    klu_free_numeric(&fu->numeric, &fu->common);
-    fu->numeric = klu_factor(a->column, a->row, a->value, fu->symbolic, &fu->common);
-    if (fu->numeric == NULL)
-        return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
-    klu_flops(fu->symbolic, fu->numeric, &fu->common);
-    counts->entries = (long)fu->numeric->lnz + fu->numeric->unz - fu->n;
-    counts->flops = fu->common.flops;
-    return STATUS_OK;
-}
-
-/* Returns the sign of a permutation. A cycle of k members consists of k - 1 exchanges. done: work
- * space. */
-static int sign_of(int n, const int permutation[], double done[])
-{
-    int sign = 1;
-    for (int i = 0; i < n; i++)
-        done[i] = 0;
-    for (int i = 0; i < n; i++)
-        for (int k = i, length = 0; done[k] == 0; k = permutation[k], length++) {
-            done[k] = 1;
-            sign = length == 0 ? sign : -sign;
-        }
-    return sign;
-}
-
-/* Returns the sign of the determinant. P R^-1 A Q is block triangular and has the pivots on its
- * diagonal. */
-static int determinant_of(factor_unsymmetric *fu)
-{
-    int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) *
-               sign_of(fu->n, fu->symbolic->Q, fu->largest);
-    for (int k = 0; k < fu->n; k++)
-        sign = ((const double *)fu->numeric->Udiag)[k] < 0 ? -sign : sign;
-    return sign;
-}
-
-static status check_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row,
-                           int *column, double *ratio)
-{
-    const klu_numeric *u = fu->numeric;
-    const double *pivot = u->Udiag;
-    double largest = 0, smallest = INFINITY;
-    for (int j = 0; j < fu->n; j++) {
-        fu->largest[j] = 0;
-        for (int k = a->column[j]; k < a->column[j + 1]; k++)
-            fu->largest[j] = fmax(fu->largest[j], fabs(a->value[k]) / u->Rs[u->Pinv[a->row[k]]]);
-    }
-    *ratio = INFINITY;
-    for (int k = 0; k < fu->n; k++) {
-        const double d = fabs(pivot[k]), part = d / fu->largest[fu->symbolic->Q[k]];
-        if (!isfinite(d) || d == 0)
-            return STATUS_SINGULAR;
-        if (part < *ratio) {
-            *ratio = part;
-            *row = u->Pnum[k];
-            *column = fu->symbolic->Q[k];
-        }
-        largest = fmax(largest, d);
-        smallest = fmin(smallest, d);
-    }
-    counts->condition = largest / smallest;
-    return STATUS_OK;
-}
-
-static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a,
-                                         factor_counts *counts, int *row, int *column,
-                                         double *ratio)
-{
-    if (!refactor(fu, a)) {
-        TRY(factor_anew(fu, a, counts));
-    }
-    counts->determinant = determinant_of(fu);
-    return check_pivots(fu, a, counts, row, column, ratio);
-}
-
-void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[])
-{
-    klu_solve(fu->symbolic, fu->numeric, stride, columns, x, &fu->common);
-}
-
-void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[])
-{
-    klu_tsolve(fu->symbolic, fu->numeric, fu->n, 1, x, &fu->common);
 }

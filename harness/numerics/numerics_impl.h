@@ -147,14 +147,74 @@ status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_co
 /* Solves in place for `columns` right-hand sides. */
 void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
 
-/* LU of a sparse unsymmetric matrix (SuiteSparse KLU). */
+/* LU of a sparse unsymmetric matrix. A matrix with a symmetric pattern is factored by dense fronts
+ * without exchanges of rows. If this is not accurate, it is factored by SuiteSparse KLU. */
 
 typedef struct factor_unsymmetric factor_unsymmetric;
 
+/* copies: see factor_alloc_copies. */
+status factor_unsymmetric_alloc(const sparse *pattern, int copies, factor_unsymmetric **out,
+                                factor_counts *counts, fault *f);
 void factor_unsymmetric_free(factor_unsymmetric *fu);
+/* Factors the values. Returns OK, SINGULAR, or FAULT if out of memory. The first pivot order is
+ * used again for all later matrices, without allocation, until pivot growth requires a new order.
+ * *ratio: smallest magnitude of a pivot relative to the terms of its sum (fronts), or relative to
+ * the largest entry of its column, after every row is divided by its largest entry (KLU). *row,
+ * *column: position of this pivot. */
+status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
+                                  int *row, int *column, double *ratio);
 /* Solves in place for `columns` right-hand sides. */
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
+/* Returns 1 if the last values were factored by fronts. */
+int factor_unsymmetric_has_fronts(const factor_unsymmetric *fu);
+
+/* LU by dense fronts. Every column is eliminated with its diagonal entry as the pivot. */
+
+enum { FRONTS_LANES = 4 };
+
+/* Some consecutive columns in the order of elimination, with the rows in which they have entries.
+ * Its values are a row-major matrix [rows x stride] whose last columns are zero. The first `pivots`
+ * rows and columns become those of L and U; the rest is added to the parent. */
+typedef struct front {
+    int first, pivots, rows, stride;
+    int parent;          /* -1: none */
+    size_t below, value; /* starts in `below` and `value` of the fronts */
+} front;
+
+typedef struct fronts {
+    int n, copies, count, most_rows, entries;
+    front *front; /* [count] in the order of elimination */
+    int *order;   /* [n] order[k] is the unknown at position k */
+    int *place;   /* [entries] where each entry of the matrix is in `value` */
+    /* for each row of a front below its pivots: its position; its row in the parent; the index
+     * after the rows that are consecutive in the parent */
+    int *below, *in_parent, *until;
+    size_t below_count, size;
+    double *value; /* [size] */
+    /* [n] magnitude of the diagonal (of copies: the largest); with rows and columns divided by its
+     * square root, |L| |U| is at most sqrt(left_i right_j)/scale */
+    double *scale, *left, *right;
+    double *work; /* [n + most_rows + 2 FRONTS_LANES] */
+} fronts;
+
+typedef struct fronts_pivots {
+    int weakest, determinant;
+    double ratio, condition;
+} fronts_pivots;
+
+/* Returns NULL if the pattern is not symmetric, if fronts would be mostly zeros, or if out of
+ * memory. */
+fronts *fronts_alloc(const sparse *pattern, int copies, factor_counts *counts);
+void fronts_free(fronts *);
+/* Factors the values. Returns 0 if the factors are not accurate: if |L| |U| exceeds the scaled
+ * matrix by a factor of 1e4, or if a pivot is only a rounding error or not finite. */
+int triangular_fronts_factor_plain(const fronts *, const double a[], fronts_pivots *);
+int triangular_fronts_factor_avx2(const fronts *, const double a[], fronts_pivots *);
+void triangular_fronts_solve_plain(const fronts *, int columns, int stride, double x[]);
+void triangular_fronts_solve_avx2(const fronts *, int columns, int stride, double x[]);
+void triangular_fronts_solve_transposed_plain(const fronts *, double x[]);
+void triangular_fronts_solve_transposed_avx2(const fronts *, double x[]);
 
 /* Counts the negative eigenvalues of the Hermitian matrix K - omega^2 M + i omega G. If K is
  * positive definite, their number is that of the frequencies below omega. SINGULAR: omega is too

@@ -177,7 +177,7 @@ static status allocate(radau *r, fault *f)
     TRY(assemble_pattern_in_time(r->of.c->model, r->of.c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &r->K, f));
     TRY(stages_alloc(&r->of.c->eq, r->of.masses, pattern, &r->S, f));
-    TRY(factor_alloc(&r->S.whole, &r->factor, f));
+    TRY(factor_alloc_copies(&r->S.whole, STAGES, &r->factor, f));
     return factor_alloc(pattern, &r->single, f);
 }
 
