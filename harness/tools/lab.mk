@@ -75,5 +75,8 @@ lab-integrators: all ## run the integrators on all cases with motions, with all 
 lab-cost-coefficients: all needs-report ## fit the cost coefficients of counted work to measured times on an idle machine; 5 minutes; harness/study/cost_coefficients.csv
 	@$(PYTHON) harness/tools/cost_coefficients.py $(PROGRAM) -o harness/study/cost_coefficients.csv
 
+lab-times: verify ## measure the times that docs/howto/speed.md states, on an idle machine; TIMES=--write: write them into the page; 20 minutes; build/lab/times.json
+	@mkdir -p $(LAB) && $(PYTHON) harness/tools/times.py $(PROGRAM) $(TIMES) -o $(LAB)/times.json
+
 lab-valgrind: all ## run a small selection of verify, and a thousand cycles of the library, under valgrind; 10 minutes
 	@harness/tools/valgrind.sh $(BUILD)
