@@ -43,6 +43,26 @@ void assemble_subtract(sparse *K, int row, int column, double value)
         K->value[position] -= value;
 }
 
+void assemble_add_block(sparse *K, int rows, const int row[], int columns, const int column[],
+                        const double block[])
+{
+    for (int j = 0; j < columns; j++) {
+        if (column[j] < 0 || column[j] >= K->n)
+            continue;
+        const int end = K->column[column[j] + 1];
+        int next = end; /* entry after the previous one, which is often the one of the next row */
+        for (int i = 0; i < rows; i++) {
+            if (row[i] < 0 || row[i] >= K->n || (K->symmetric && row[i] > column[j]))
+                continue;
+            const int at =
+                next < end && K->row[next] == row[i] ? next : sparse_position(K, row[i], column[j]);
+            if (at >= 0)
+                K->value[at] += block[columns * i + j];
+            next = at >= 0 ? at + 1 : end;
+        }
+    }
+}
+
 static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t count, int row[],
                          int column[])
 {

@@ -647,6 +647,9 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
 /* Subtracts a value from an entry. Has no effect if the entry is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
+/* Adds block[rows x columns] to the entries of these rows and columns that are stored. */
+void assemble_add_block(sparse *a, int rows, const int row[], int columns, const int column[],
+                        const double block[]);
 
 /* An arc of constant torsion and curvature between two points. The arc is straight if the curvature
  * is zero. */

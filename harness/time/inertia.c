@@ -210,9 +210,7 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
     released_project(&of, rates, motion, K);
     released_motion(&of, 1, one, one, motion);
     released_project(&of, p->place, motion, K);
-    for (int i = 0; i < of.count; i++)
-        for (int j = 0; j < of.count; j++)
-            assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
+    assemble_add_block(S, of.count, of.index, of.count, of.index, K);
 }
 
 void inertia_add_tangent(const equations *eq, const frame_masses *all, const model_state *s,
@@ -241,9 +239,7 @@ void inertia_add_tangent(const equations *eq, const frame_masses *all, const mod
         for (int i = 0; i < 36; i++)
             K[i] += more[i];
         inertia_finish(m, all, k, &p, with->g, 1, K);
-        for (int i = 0; i < 6; i++)
-            for (int j = 0; j < 6; j++)
-                assemble_subtract(S, at[i], at[j], -K[6 * i + j]);
+        assemble_add_block(S, 6, at, 6, at, K);
     }
     for (int i = 0; i < model_warps(m); i++) {
         const int c = model_warp(m, i);

@@ -37,9 +37,7 @@ static void add_frame(radau *r, int index, double h, int i)
                 K[x] += more[x];
         }
         inertia_finish(m, r->of.masses, index, &p, of.rate, i == k, K);
-        for (int row = 0; row < 6; row++)
-            for (int column = 0; column < 6; column++)
-                stages_add(&r->S, i, k, at[row], at[column], K[6 * row + column]);
+        stages_add_block(&r->S, i, k, 6, at, K);
     }
 }
 
@@ -70,10 +68,7 @@ static void add_released(radau *r, int index, double h, int i)
             released_motion(&of, 1, one, one, motion);
             released_project(&of, p.place, motion, K);
         }
-        for (int row = 0; row < of.count; row++)
-            for (int column = 0; column < of.count; column++)
-                stages_add(&r->S, i, k, of.index[row], of.index[column],
-                           K[of.count * row + column]);
+        stages_add_block(&r->S, i, k, of.count, of.index, K);
     }
 }
 

@@ -141,6 +141,18 @@ void stages_add(stages_matrix *s, int i, int k, int row, int column, double valu
     assemble_subtract(&s->whole, i * s->n + row, k * s->n + column, -value);
 }
 
+void stages_add_block(stages_matrix *s, int i, int k, int count, const int index[],
+                      const double block[])
+{
+    int row[MODEL_MAX_COORDINATES], column[MODEL_MAX_COORDINATES];
+    for (int c = 0; c < count; c++) {
+        const int inside = index[c] >= 0 && index[c] < s->n;
+        row[c] = inside ? i * s->n + index[c] : NONE;
+        column[c] = inside ? k * s->n + index[c] : NONE;
+    }
+    assemble_add_block(&s->whole, count, row, count, column, block);
+}
+
 /* Returns the rank of the positive semidefinite A[n x n], which is overwritten. Pivots up to `none`
  * count as zero. */
 static int rank(int n, double A[], int used[], double none)

@@ -877,6 +877,9 @@ void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *patte
 /* Adds a value to entry (row, column) of block (i, k). Rows and columns of coordinates that are not
  * free are skipped. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
+/* Adds block[count x count] to the rows and columns index[count] of block (i, k). */
+void stages_add_block(stages_matrix *, int i, int k, int count, const int index[],
+                      const double block[]);
 
 /* One stage. */
 typedef struct radau_stage {
