@@ -563,10 +563,13 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation is not fixed, even if fixed rotations have kept rows. */
+/* Returns 1 if at most one rotation is not fixed, even if fixed rotations have kept rows. In a
+ * plane scene, this is the rotation about its normal. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
+    if (scene_normal(model_scene(m)) != SCENE_NONE)
+        return 1;
     for (int k = 0; k < 3; k++)
         moving += model_scene(m)->node[vertex].angle[k] != SCENE_HELD;
     return moving <= 1;
