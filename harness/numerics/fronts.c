@@ -200,7 +200,7 @@ static int lay_out_fronts(fronts *t)
 {
     const size_t rows = t->below_count + (size_t)t->n + 1;
     t->below = malloc(3 * rows * sizeof *t->below);
-    t->value = malloc((t->size + 1) * sizeof *t->value);
+    t->value = malloc((t->size + FRONTS_LANES) * sizeof *t->value);
     t->scale =
         malloc((4 * (size_t)t->n + (size_t)t->most_rows + 2 * FRONTS_LANES) * sizeof *t->scale);
     if (t->below == NULL || t->value == NULL || t->scale == NULL)

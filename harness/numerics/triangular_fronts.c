@@ -147,7 +147,8 @@ static int is_accurate(const fronts *t, fronts_pivots *out)
 
 int REAL_NAMED(triangular_fronts_factor)(const fronts *t, const double a[], fronts_pivots *out)
 {
-    memset(t->value, 0, t->size * sizeof *t->value);
+    for (size_t i = 0; i < t->size; i += WIDE)
+        *(lanes *)(t->value + i) = (lanes){0};
     memset(t->left, 0, 2 * (size_t)t->n * sizeof *t->left);
     for (int k = 0; k < t->entries; k++)
         t->value[t->place[k]] = a[k];
