@@ -79,8 +79,8 @@ static inline __attribute__((always_inline)) void narrow(int rows, int n, int bl
         memcpy(A + i * n, in + i * blocks, row);
 }
 
-static inline __attribute__((always_inline)) void add(int m, int n, int blocks, const double *J,
-                                                      const double *S, double *K)
+static inline __attribute__((always_inline)) void add(int m, int n, int blocks, const double *A,
+                                                      const double *S, const double *J, double *K)
 {
     part wide[CONGRUENCE_WIDEST * PARTS], SJ[CONGRUENCE_WIDEST * PARTS],
         sum[CONGRUENCE_WIDEST * PARTS];
@@ -89,18 +89,24 @@ static inline __attribute__((always_inline)) void add(int m, int n, int blocks, 
         SJ[i] = (part){0};
     add_rows(m, m, blocks, S, m, 1, wide, SJ);
     widen(n, n, blocks, K, sum);
-    add_rows(n, m, blocks, J, 1, n, SJ, sum);
+    add_rows(n, m, blocks, A, 1, n, SJ, sum);
     narrow(n, n, blocks, sum, K);
+}
+
+void REAL_NAMED(congruence_add_between)(int m, int n, const double *A, const double *S,
+                                        const double *J, double *K)
+{
+    if (m == 8 && n == 14)
+        add(8, 14, (14 + WIDTH - 1) / WIDTH, A, S, J, K);
+    else if (m == 8 && n == 8)
+        add(8, 8, 8 / WIDTH, A, S, J, K);
+    else if (m == 15 && n == 21)
+        add(15, 21, (21 + WIDTH - 1) / WIDTH, A, S, J, K);
+    else
+        add(m, n, (n + WIDTH - 1) / WIDTH, A, S, J, K);
 }
 
 void REAL_NAMED(congruence_add)(int m, int n, const double *J, const double *S, double *K)
 {
-    if (m == 8 && n == 14)
-        add(8, 14, (14 + WIDTH - 1) / WIDTH, J, S, K);
-    else if (m == 8 && n == 8)
-        add(8, 8, 8 / WIDTH, J, S, K);
-    else if (m == 15 && n == 21)
-        add(15, 21, (21 + WIDTH - 1) / WIDTH, J, S, K);
-    else
-        add(m, n, (n + WIDTH - 1) / WIDTH, J, S, K);
+    REAL_NAMED(congruence_add_between)(m, n, J, S, J, K);
 }

@@ -117,15 +117,20 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
         mul_rows(m, n, A, x, y);
 }
 
-void dense_add_congruence(int m, int n, const double *restrict J, const double *restrict S,
-                          double *restrict K, double *restrict work)
+void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work)
+{
+    dense_add_between(m, n, J, S, J, K, work);
+}
+
+void dense_add_between(int m, int n, const double *A, const double *S, const double *J, double *K,
+                       double *work)
 {
     if (m <= CONGRUENCE_WIDEST && n <= CONGRUENCE_WIDEST) {
-        REAL_CHOSEN(congruence_add)(m, n, J, S, K);
+        REAL_CHOSEN(congruence_add_between)(m, n, A, S, J, K);
         return;
     }
     dense_mul(m, m, n, S, J, work);
-    dense_add_transpose_mul(n, m, n, J, work, K);
+    dense_add_transpose_mul(n, m, n, A, work, K);
 }
 
 double dense_symmetrise(int n, double *A)

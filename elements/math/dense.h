@@ -16,6 +16,9 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
 /* Adds J^T S J to K(n x n), with J(m x n) and S(m x m). S may be unsymmetric. `work` has m*n
  * entries. */
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work);
+/* Adds A^T S J to K(n x n), with A(m x n), S(m x m) and J(m x n). `work` has m*n entries. */
+void dense_add_between(int m, int n, const double *A, const double *S, const double *J, double *K,
+                       double *work);
 
 /* Adds rows and columns of zeros to K in place: K[n x n] -> K[wide x wide]. */
 void dense_widen(int n, int wide, double K[]);
@@ -46,5 +49,10 @@ enum { CONGRUENCE_WIDEST = 24 };
  * The second function is for processors with AVX2 (real.h). */
 void congruence_add_plain(int m, int n, const double *J, const double *S, double *K);
 void congruence_add_avx2(int m, int n, const double *J, const double *S, double *K);
+/* The same with A^T S J. */
+void congruence_add_between_plain(int m, int n, const double *A, const double *S, const double *J,
+                                  double *K);
+void congruence_add_between_avx2(int m, int n, const double *A, const double *S, const double *J,
+                                 double *K);
 
 #endif

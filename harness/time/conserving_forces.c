@@ -135,9 +135,8 @@ static double equations_of(conserving *s, const motion_state *from, const model_
     const double incompatibility = gaps_of(s, J, v, sigma);
     for (int k = 0; k < strains * strains; k++)
         tangent[k] = of->C[k] / 2 + s->k * of->W[k] + (of->V != NULL ? 1 / s->h * of->V[k] : 0);
-    dense_mul(strains, strains, n, tangent, of->J, inside);
     memset(v->K, 0, (size_t)(n * n) * sizeof *v->K);
-    dense_add_transpose_mul(n, strains, n, J, inside, v->K);
+    dense_add_between(strains, n, J, tangent, of->J, v->K, inside);
     cayley_slopes_of(&v->step, &by);
     for (int g = 0; g < DEFORMABLE_POINTS; g++)
         add_curved_strains(&by, g, v, v->K);

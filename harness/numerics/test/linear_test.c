@@ -573,8 +573,42 @@ static void triangular_tests(void)
     free(p);
 }
 
+static void products_between(void)
+{
+    enum { WIDEST = CONGRUENCE_WIDEST + 2 };
+    static double A[WIDEST * WIDEST], S[WIDEST * WIDEST], J[WIDEST * WIDEST], K[WIDEST * WIDEST],
+        SJ[WIDEST * WIDEST], plain[WIDEST * WIDEST], work[WIDEST * WIDEST];
+    uint64_t state = 9;
+    for (int m = 1; m <= WIDEST; m++)
+        for (int n = 1; n <= WIDEST; n++) {
+            double worst = 0;
+            for (int i = 0; i < WIDEST * WIDEST; i++) {
+                A[i] = random_number(&state);
+                S[i] = random_number(&state);
+                J[i] = random_number(&state);
+                K[i] = plain[i] = random_number(&state);
+            }
+            for (int i = 0; i < m; i++)
+                for (int j = 0; j < n; j++) {
+                    SJ[n * i + j] = 0;
+                    for (int l = 0; l < m; l++)
+                        SJ[n * i + j] += S[m * i + l] * J[n * l + j];
+                }
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j < n; j++)
+                    for (int l = 0; l < m; l++)
+                        plain[n * i + j] += A[n * l + i] * SJ[n * l + j];
+            dense_add_between(m, n, A, S, J, K, work);
+            for (int i = 0; i < WIDEST * WIDEST; i++)
+                worst = worst_of(worst, fabs(K[i] - plain[i]));
+            gsl_test(!(worst <= 1e-12), "A^T S J of %d strains and %d coordinates: %g", m, n,
+                     worst);
+        }
+}
+
 int main(void)
 {
+    products_between();
     linear_tests();
     singular_matrix_tests();
     thread_pool_tests();
