@@ -142,6 +142,7 @@ static void release(motion_scheme *base)
     free(r->dx);
     free(r->weight);
     free(r->errors);
+    free(r->turn);
     free(r);
 }
 
@@ -169,7 +170,9 @@ static status allocate(radau *r, fault *f)
     r->dx = calloc(all, sizeof *r->dx);
     r->weight = calloc(all, sizeof *r->weight);
     r->errors = calloc((size_t)(STAGES * feedback_count(&r->of.c->eq)) + 1, sizeof *r->errors);
-    if (r->residual == NULL || r->dx == NULL || r->weight == NULL || r->errors == NULL)
+    r->turn = calloc((size_t)model_vertices(r->of.c->model) * STAGES * 18 + 1, sizeof *r->turn);
+    if (r->residual == NULL || r->dx == NULL || r->weight == NULL || r->errors == NULL ||
+        r->turn == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)

@@ -127,6 +127,8 @@ static void add_feedback(radau *r, double h, int i)
     }
 }
 
+static void differentiate_turns(radau *r);
+
 status radau_equations(radau *r, int fresh, const motion_state *from, double h, step_record *record,
                        fault *f)
 {
@@ -159,6 +161,7 @@ status radau_equations(radau *r, int fresh, const motion_state *from, double h, 
     radau_damp(r, fresh, from, h);
     if (!fresh)
         return STATUS_OK;
+    differentiate_turns(r);
     for (int i = 0; i < STAGES; i++)
         for (int k = 0; k < r->of.masses->masses; k++)
             if (r->of.masses->mass[k].frame < model_first_release(r->of.c->model))
@@ -196,6 +199,12 @@ void radau_coefficients(radau *r)
     r->node[2] = 1;
 }
 
+/* Returns Jr(t) of a vertex in a stage, followed by d(Jr(t) t')/dt. */
+static double *turn_of(const radau *r, int vertex, int stage)
+{
+    return r->turn + (size_t)(STAGES * vertex + stage) * 18;
+}
+
 static void three(const int at[6], const double of[], double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -228,7 +237,7 @@ void radau_rates(radau *r, const motion_state *from, double h)
         }
         for (int x = 0; x < model_vertices(m); x++) {
             const int *at = model_vertex(m, x)->coordinate;
-            double t[3], rate[3], Jr[9], W[3];
+            double t[3], rate[3], *Jr = turn_of(r, x, i), W[3];
             if (!is_free_turn(m, x))
                 continue;
             three(at, one->inc, t);
@@ -247,6 +256,18 @@ void radau_rates(radau *r, const motion_state *from, double h)
         }
 }
 
+static void differentiate_turns(radau *r)
+{
+    const model *m = r->of.c->model;
+    for (int x = 0; x < model_vertices(m); x++)
+        for (int i = 0; i < STAGES && is_free_turn(m, x); i++) {
+            double t[3], rate[3];
+            three(model_vertex(m, x)->coordinate, r->stage[i].inc, t);
+            three(model_vertex(m, x)->coordinate, r->stage[i].rate, rate);
+            rotation_rates_derivative(t, rate, turn_of(r, x, i) + 9);
+        }
+}
+
 /* Computes G_jk of a frame, the derivative of the rates of stage j with respect to inc of stage k:
  * a scalar for translations, and a matrix [3 x 3] for rotations. */
 static void gains(const radau *r, int vertex, double h, int j, int k, double *translation,
@@ -259,13 +280,9 @@ static void gains(const radau *r, int vertex, double h, int j, int k, double *tr
         turn[i] = i % 4 == 0 ? b : 0;
     if (!is_free_turn(m, vertex))
         return;
-    double t[3], rate[3], D[9];
-    three(model_vertex(m, vertex)->coordinate, r->stage[j].inc, t);
-    three(model_vertex(m, vertex)->coordinate, r->stage[j].rate, rate);
-    rotation_rates_jacobian(t, turn);
-    rotation_rates_derivative(t, rate, D);
+    const double *Jr = turn_of(r, vertex, j), *D = Jr + 9;
     for (int i = 0; i < 9; i++)
-        turn[i] = b * turn[i] + (j == k ? D[i] : 0);
+        turn[i] = b * Jr[i] + (j == k ? D[i] : 0);
 }
 
 void radau_relate(const radau *r, int vertex, double h, int i, int k, radau_relation *out)

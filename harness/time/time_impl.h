@@ -902,6 +902,9 @@ typedef struct radau {
     double *dx;       /* [free + driven] */
     double *weight;   /* [free + driven] */
     double *errors;   /* [STAGES x feedback_count] */
+    /* [vertices x STAGES x 18] for vertices that turn freely: Jr(t) (set by radau_rates), and
+     * d(Jr(t) t')/dt (set by radau_equations if fresh) */
+    double *turn;
     newton_convergence newton_convergence;
     int free, all;
     long counted, counted_single;
