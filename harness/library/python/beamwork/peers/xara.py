@@ -324,13 +324,8 @@ class Frame(Model):
     def state(self, model: Any, turns: dict[str, Any]) -> State:
         model.reactions()
         numbers = self.mesh.node_of
-        return State(
-            u={
-                name: [float(x) for x in (*model.nodeDisp(number)[:3], *turns[name])]
-                for name, number in numbers.items()
-            },
-            reaction=reactions(model, self.scene, self.mesh),
-        )
+        u = {name: [float(x) for x in (*model.nodeDisp(number)[:3], *turns[name])] for name, number in numbers.items()}
+        return State(u=u, reaction=reactions(model, self.scene, self.mesh))
 
     def _compliance_here(self, model: Any, node: str) -> Any:
         """Returns the inverse of the tangent at the node. For this, the driven components of the
