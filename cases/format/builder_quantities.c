@@ -612,6 +612,8 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
     out->given = 1;
 }
 
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
 void units_translate(const unit_system *s, const char *unit, size_t size, char out[])
 {
     static const char *const whole[][2] = {{"kg m/s", "N s"},
@@ -623,7 +625,6 @@ void units_translate(const unit_system *s, const char *unit, size_t size, char o
                                            {"rad/(kg m)", "rad/(N s^2)"},
                                            {"rad/(kg m s)", "rad/(N s^3)"},
                                            {"rad/(kg m s^2)", "rad/(N s^4)"}};
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
     size_t used = 0;
     for (size_t i = 0; s->given && i < sizeof whole / sizeof whole[0]; i++)
         if (strcmp(unit, whole[i][0]) == 0)
@@ -645,5 +646,36 @@ void units_translate(const unit_system *s, const char *unit, size_t size, char o
         used += room;
         out[used] = '\0';
         unit += length;
+    }
+}
+
+void units_check_own(const document_node *unit, const unit_system *s, mistakes *m)
+{
+    const struct {
+        const named_unit *list;
+        const char *what, *name;
+        double value;
+    } kinds[] = {{lengths, "lengths", s->name_of_length, s->length},
+                 {forces, "forces", s->name_of_force, s->force},
+                 {stresses, "stresses", s->name_of_stress, s->force / (s->length * s->length)}};
+    static const char *const never[] = {"deg", "degree", "ms", "kHz", "rpm"};
+    for (const char *at = unit->text; *at != '\0';) {
+        const size_t word = strspn(at, letters), length = word > 0 ? word : 1;
+        for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+            const named_unit *known = find_unit(kinds[i].list, at, word);
+            if (known != NULL && fabs(known->value - kinds[i].value) > 1e-9 * kinds[i].value)
+                document_mistake(m, unit, 0,
+                                 "unit '%.40s': the %s of this scene are in %s (key 'units'); use "
+                                 "this unit, and convert the value",
+                                 unit->text, kinds[i].what, kinds[i].name);
+        }
+        for (size_t i = 0; i < sizeof never / sizeof never[0]; i++)
+            if (strlen(never[i]) == word && strncmp(never[i], at, word) == 0)
+                document_mistake(m, unit, 0,
+                                 "unit '%.40s': angles are in rad, times in s and frequencies in "
+                                 "Hz or rad/s; use one of these units, and convert the value (45 "
+                                 "deg: 45*deg)",
+                                 unit->text);
+        at += length;
     }
 }

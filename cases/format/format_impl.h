@@ -117,6 +117,9 @@ typedef struct unit_system {
 void units_read(const document_node *n, mistakes *m, unit_system *out);
 /* Converts the name of an SI unit to that of the unit system; for example, "N m" becomes "N mm". */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
+/* Reports an error if the text contains a unit of length, force or stress that the unit system does
+ * not use, or a unit of an angle or a time other than rad and s. */
+void units_check_own(const document_node *unit, const unit_system *, mistakes *m);
 
 /* State of a scene that is built from a checked tree. After an invalid value, the error is reported
  * and an arbitrary value is used. */

@@ -82,13 +82,14 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
         mistake_choice(m, value, p->name, p->choices);
 }
 
-/* Reads a numerical parameter. Its unit is not checked if any_unit is 1, because the scene has its
- * own units. */
-static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
+static void read_number(parameter_type *p, const document_node *entry, const unit_system *units,
+                        mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
     p->unit = text_of(entry, "unit", "1");
-    if (unit != NULL && !any_unit)
+    if (unit != NULL && units->given)
+        units_check_own(unit, units, m);
+    else if (unit != NULL && units->name_of_length == NULL && units->name_of_force == NULL)
         units_check(unit, m);
     p->min = number_of(entry, "min", -DBL_MAX, m);
     p->max = number_of(entry, "max", DBL_MAX, m);
@@ -107,6 +108,8 @@ void parameter_table_read(scene_file *file, mistakes *m)
 {
     const document_node *all = document_find(file->root, "parameters");
     const scope *names = NULL;
+    unit_system units;
+    units_read(document_find(file->root, "units"), m, &units);
     if (all != NULL)
         for (int i = 0; i < all->count; i++) {
             const document_node *entry = all->item[i], *choices = document_find(entry, "choices");
@@ -128,7 +131,7 @@ void parameter_table_read(scene_file *file, mistakes *m)
             else if (choices != NULL && is_switch(choices))
                 read_switch(p, document_find(entry, "value"), m);
             else if (choices == NULL)
-                read_number(p, entry, document_find(file->root, "units") != NULL, m);
+                read_number(p, entry, &units, m);
         }
     file->type.parameters[0] = file->parameter;
 }

@@ -372,6 +372,13 @@ class UnitsTest(SceneCase):
             self.refused(2, words, "solve", "--scene", self.scene(text))
         text = leaf.replace("beamwork: 1", "beamwork: 1\nunits: mm, N").replace("component: uy}", "component: uy}, unit: m")
         self.refused(2, "the value is in mm", "solve", "--scene", self.scene(text))
+        for unit, words in (("cm", "lengths of this scene are in mm"), ("N m", "lengths of this scene"), ("kN/mm", "forces of this scene are in N"),
+                            ("GPa", "stresses of this scene are in N/mm^2"), ("deg", "angles are in rad"), ("mm", ""), ("N mm", ""), ("N/mm^2", ""), ("MPa", "")):
+            text = leaf.replace("beamwork: 1", f"beamwork: 1\nunits: mm, N\nparameters: {{more: {{value: 1, unit: {unit}}}}}")
+            if words:
+                self.refused(2, words, "solve", "--scene", self.scene(text))
+            else:
+                self.solved(text)
 
     def warned(self, text):
         done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
