@@ -167,31 +167,67 @@ static void evaluate_quantity(const sweep *s, truths *t, int index, int quantity
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Returns 1 if the quantity has a reference value, and scatter may explain the whole last change or
- * the verdict is undecided. */
-static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
+/* largest relative change that scatter may explain */
+static const double small_change = 1e-7;
+/* The verdict must not change between relative scatters of 10^-MOST_DIGITS and 10^-LEAST_DIGITS, or
+ * 10^-OPEN_DIGITS if it is undecided. */
+enum { MOST_DIGITS = 16, LEAST_DIGITS = 6, OPEN_DIGITS = 3 };
+
+static verdict verdict_with(const sweep *s, const truths *t, int index, int quantity,
+                            double scatter)
 {
-    const double small_change = 1e-7;
-    verdict v = {.series = index, .quantity = quantity};
-    verdict_reach(s, t, &v);
-    if (v.truth == NULL || isnan(v.fit.limit) || isnan(v.fit.last_change))
-        return 0;
-    return v.kind == VERDICT_UNDECIDED ||
-           v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
+    verdict out = {.series = index, .quantity = quantity};
+    verdict_reach_with(s, t, scatter, &out);
+    return out;
+}
+
+static int can_be_measured(const verdict *v)
+{
+    return v->truth != NULL && !isnan(v->fit.limit) && !isnan(v->fit.last_change);
+}
+
+/* Returns 1 if scatter may explain the whole last change, or the verdict is undecided. */
+static int may_be_scatter(const sweep *s, const truths *t, int index, int quantity)
+{
+    const verdict v = verdict_with(s, t, index, quantity, NAN);
+    return can_be_measured(&v) &&
+           (v.kind == VERDICT_UNDECIDED ||
+            v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value)));
+}
+
+/* Returns 1 if some scatter changes the verdict that is reached without measured scatter. */
+static int depends_on_scatter(const sweep *s, const truths *t, int index, int quantity)
+{
+    const verdict v = verdict_with(s, t, index, quantity, NAN);
+    const int least = v.kind == VERDICT_UNDECIDED ? OPEN_DIGITS : LEAST_DIGITS;
+    for (int digits = MOST_DIGITS; can_be_measured(&v) && digits >= least; digits--) {
+        const verdict other = verdict_with(s, t, index, quantity, pow(10, -digits));
+        if (other.kind != v.kind || other.contradicted != v.contradicted)
+            return 1;
+    }
+    return 0;
+}
+
+typedef int quantity_test(const sweep *s, const truths *t, int series_index, int quantity);
+
+static int has_quantity_that(const sweep *s, const truths *t, int series_index,
+                             quantity_test *holds)
+{
+    const series *one = &s->series[series_index];
+    const sweep_point *p = &s->point[one->point];
+    for (int q = 0; q < p->scene.quantities; q++)
+        if (p->scene.quantity[q].reduction != SCENE_CURVE &&
+            sweep_selects(s, p, &one->formulation, p->scene.quantity[q].name) &&
+            holds(s, t, series_index, q))
+            return 1;
+    return 0;
 }
 
 int evaluation_needs_scatter(const sweep *s, const truths *t, int series_index)
 {
-    const series *one = &s->series[series_index];
-    const sweep_point *p = &s->point[one->point];
-    if (one->imported != NULL)
-        return 0;
-    for (int q = 0; q < p->scene.quantities; q++)
-        if (p->scene.quantity[q].reduction != SCENE_CURVE &&
-            sweep_selects(s, p, &one->formulation, p->scene.quantity[q].name) &&
-            noise_may_decide(s, t, series_index, q))
-            return 1;
-    return 0;
+    return s->series[series_index].imported == NULL &&
+           has_quantity_that(s, t, series_index, may_be_scatter) &&
+           has_quantity_that(s, t, series_index, depends_on_scatter);
 }
 
 static void clear_observations(truths *t)

@@ -428,6 +428,8 @@ const truth *verdict_reference(const truths *t, const sweep_point *p, const form
 /* Evaluates the quantity and the series of v. Sets the verdict, its limit and its errors. Sets
  * `matches` if the verdict is expected without a known deviation. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
+/* The same with another relative scatter of the values; NAN: not measured. */
+void verdict_reach_with(const sweep *s, const truths *t, double noise, verdict *v);
 /* Returns (value - reference)/max(|reference|, near_zero), or the difference if both are zero. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
 

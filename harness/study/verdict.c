@@ -99,7 +99,9 @@ element_analysis verdict_analysis(const scene *s, const scene_quantity *q)
     return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
 }
 
-mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out)
+/* noise: relative scatter of the values; NAN: not measured. */
+static mesh_limit limit_with(const sweep *s, int series_index, int quantity, int left_out,
+                             double noise)
 {
     const series *one = &s->series[series_index];
     const scene *here = &s->point[one->point].scene;
@@ -111,11 +113,22 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
         .count = verdict_meshes(one, quantity) - left_out,
         .n = h.n,
         .value = h.value,
-        .noise = one->noise != NULL ? one->noise[quantity] : NAN,
+        .noise = noise,
         .nominal_order = fmax(1, ceil(q->least_order)),
         .highest_order = scene_tapers(here) && order.highest > 2 ? 2 : order.highest,
         .near_zero = q->near_zero};
     return limit_of(&sequence);
+}
+
+static double noise_of(const sweep *s, int series_index, int quantity)
+{
+    const series *one = &s->series[series_index];
+    return one->noise != NULL ? one->noise[quantity] : NAN;
+}
+
+mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out)
+{
+    return limit_with(s, series_index, quantity, left_out, noise_of(s, series_index, quantity));
 }
 
 /* Returns 1 if the order is known and too low. With more than four meshes, the previous order must
@@ -258,6 +271,11 @@ static int is_inapplicable(const sweep *s, verdict *v)
 
 void verdict_reach(const sweep *s, const truths *t, verdict *v)
 {
+    verdict_reach_with(s, t, noise_of(s, v->series, v->quantity), v);
+}
+
+void verdict_reach_with(const sweep *s, const truths *t, double noise, verdict *v)
+{
     const series *one = &s->series[v->series];
     const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
     v->unmodelled = 0;
@@ -275,7 +293,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
         return;
     }
     v->finest = one->cell[verdict_meshes(one, v->quantity) - 1].solve.quantity[v->quantity].value;
-    v->fit = verdict_limit(s, v->series, v->quantity, 0);
+    v->fit = limit_with(s, v->series, v->quantity, 0, noise);
     if (v->model_truth != NULL)
         v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);
     if (one->without.other) {
