@@ -267,3 +267,27 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
     for (int k = 0; k < count && eq->run->damping != NULL; k++)
         damp(eq, memory, s, element[k].index);
 }
+
+void chunk_second_derivatives(const equations *eq, const model_state *s, int count,
+                              const int element[], node_state x[], double H[])
+{
+    const model *m = eq->m;
+    const size_t size = (size_t)model_own_coordinates(m) * (size_t)model_own_coordinates(m);
+    const element_data *data[CHUNK_MOST];
+    strain_output out[CHUNK_MOST];
+    int together = count > 1 && chunk_size(m) >= count;
+    for (int k = 0; k < count; k++) {
+        const int i = element[k];
+        kinematics_gather(m, s, model_element(m, i), x + k * model_nodes(m));
+        data[k] = model_kind_of(m, i)->data;
+        together = together && model_element(m, i)->kind == model_element(m, element[0])->kind;
+        out[k] = (strain_output){.s = of_strains(m, s->sigma, i),
+                                 .H = H + (size_t)k * size,
+                                 .history = model_history_of(m, s, i)};
+    }
+    if (together)
+        model_type(m)->strain_many(count, data, x, out);
+    else
+        for (int k = 0; k < count; k++)
+            ahead_strain(eq, element[k], x + k * model_nodes(m), &out[k]);
+}

@@ -213,6 +213,10 @@ typedef struct chunk_element {
  * the outputs of each chunk_element. */
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
+/* Computes x[count x nodes] and sum sigma_i H_i of these elements: H[count x own x own
+ * coordinates]. count: at most CHUNK_MOST. */
+void chunk_second_derivatives(const equations *eq, const model_state *s, int count,
+                              const int element[], node_state x[], double H[]);
 
 /* Adds an iteration of the current trial step. energy [J]: |r . K^-1 r| of the residual r; NAN:
  * unknown. */

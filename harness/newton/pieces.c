@@ -95,31 +95,6 @@ static status filling_alloc(filling *w, fault *f)
     return STATUS_OK;
 }
 
-/* Evaluates H of one element of each piece. */
-static void second_derivatives(filling *w, int count, const int element[])
-{
-    const equations *eq = w->eq;
-    const model *m = eq->m;
-    const size_t size = (size_t)model_own_coordinates(m) * (size_t)model_own_coordinates(m);
-    const element_data *data[WIDTH];
-    strain_output out[WIDTH];
-    int alike = count > 1 && chunk_size(m) >= count;
-    for (int k = 0; k < count; k++) {
-        const int i = element[k];
-        kinematics_gather(m, w->s, model_element(m, i), w->x + k * model_nodes(m));
-        data[k] = model_kind_of(m, i)->data;
-        alike = alike && model_element(m, i)->kind == model_element(m, element[0])->kind;
-        out[k] = (strain_output){.s = &w->s->sigma[(size_t)i * (size_t)model_strains(m)],
-                                 .H = w->H + (size_t)k * size,
-                                 .history = model_history_of(m, w->s, i)};
-    }
-    if (alike)
-        model_type(m)->strain_many(count, data, w->x, out);
-    else
-        for (int k = 0; k < count; k++)
-            ahead_strain(eq, element[k], w->x + k * model_nodes(m), &out[k]);
-}
-
 /* Adds the loads on element i to H. Stores the internal forces at the ends of the member. */
 static void loads_of(filling *w, int i, const node_state x[], double H[])
 {
@@ -163,7 +138,7 @@ static void add_elements(filling *w, piece_group *g, int step)
     int element[WIDTH] = {0};
     for (int k = 0; k < g->pieces; k++)
         element[k] = g->first + k * g->elements + step;
-    second_derivatives(w, g->pieces, element);
+    chunk_second_derivatives(w->eq, w->s, g->pieces, element, w->x, w->H);
     place_nodes(w, g->pieces, step, g);
     for (int k = 0; k < g->pieces; k++)
         loads_of(w, element[k], w->x + k * model_nodes(m), w->H + (size_t)k * size);

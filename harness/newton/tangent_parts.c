@@ -151,32 +151,48 @@ double stiffness_parts_assembled_rounding(const model *m, const linear_memory *m
     return DBL_EPSILON * sum;
 }
 
+/* Adds the geometric stiffness of an element. H[own x own coordinates]: as of
+ * chunk_second_derivatives */
+static status add_geometric(const equations *eq, const linear_memory *memory, const model_state *s,
+                            int i, const node_state x[], const double own_H[], sparse *G, fault *f)
+{
+    const model *m = eq->m;
+    const mesh_element *el = model_element(m, i);
+    const size_t own = (size_t)model_own_coordinates(m);
+    double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES], present[ELEMENT_MAX_COORDINATES] = {0};
+    memcpy(H, own_H, own * own * sizeof *H);
+    eq->run->counters.strain_evaluations++;
+    if (eq->loading.rotates)
+        TRY(rotating_frame_add(eq, x, i, s->path, present, H, f));
+    dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1,
+                            linearise_slot(m, memory, i).J,
+                            &s->sigma[(size_t)i * (size_t)model_strains(m)], present);
+    eliminate_matrix(m, s, el, present, H);
+    assemble_matrix(assemble_of(eq->run->patterns, G), i, H, G);
+    return STATUS_OK;
+}
+
 status stiffness_parts_geometric(const equations *eq, const linear_memory *memory,
                                  const model_state *s, sparse *G, fault *f)
 {
     const element_rotating_frame frame = loading_frame(&eq->loading, s->path);
     const model *m = eq->m;
-    const mesh_pattern *p = assemble_of(eq->run->patterns, G);
+    const size_t size = (size_t)model_own_coordinates(m) * (size_t)model_own_coordinates(m);
+    enum { TOGETHER = 4 };
     status outcome = STATUS_OK;
     sparse_zero(G);
     ahead_strains(eq, s, AHEAD_H, s->sigma);
-    for (int i = 0; i < model_elements(m) && outcome == STATUS_OK; i++) {
-        const mesh_element *el = model_element(m, i);
-        const model_slot w = linearise_slot(m, memory, i);
-        const double *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
-        node_state x[ELEMENT_MAX_NODES];
-        double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
-            present[ELEMENT_MAX_COORDINATES] = {0};
-        kinematics_gather(m, s, el, x);
-        ahead_strain(eq, i, x,
-                     &(strain_output){.s = sigma, .H = H, .history = model_history_of(m, s, i)});
-        eq->run->counters.strain_evaluations++;
-        if (eq->loading.rotates) {
-            outcome = rotating_frame_add(eq, x, i, s->path, present, H, f);
-        }
-        dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J, sigma, present);
-        eliminate_matrix(m, s, el, present, H);
-        assemble_matrix(p, i, H, G);
+    for (int first = 0; first < model_elements(m) && outcome == STATUS_OK; first += TOGETHER) {
+        const int rest = model_elements(m) - first, count = rest < TOGETHER ? rest : TOGETHER;
+        int index[TOGETHER];
+        node_state x[TOGETHER * ELEMENT_MAX_NODES];
+        double H[TOGETHER * ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+        for (int k = 0; k < count; k++)
+            index[k] = first + k;
+        chunk_second_derivatives(eq, s, count, index, x, H);
+        for (int k = 0; k < count && outcome == STATUS_OK; k++)
+            outcome = add_geometric(eq, memory, s, index[k], x + k * model_nodes(m),
+                                    H + (size_t)k * size, G, f);
     }
     ahead_end(eq);
     TRY(outcome);
