@@ -39,7 +39,7 @@ static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f)
 {
-    return factor_alloc_copies(pattern, 1, out, f);
+    return factor_alloc_copies(pattern, 0, out, f);
 }
 
 status factor_alloc_copies(const sparse *pattern, int copies, matrix_factor **out, fault *f)

@@ -48,7 +48,7 @@ status factor_unsymmetric_alloc(const sparse *pattern, int copies, factor_unsymm
     fu->largest = malloc(((size_t)fu->n + 1) * sizeof *fu->largest);
     if (fu->largest == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
-    fu->fronts = fronts_alloc(pattern, copies, counts);
+    fu->fronts = copies > 0 ? fronts_alloc(pattern, copies, counts) : NULL;
     fu->of_fronts = *counts;
     return fu->fronts != NULL ? STATUS_OK : analyse(fu, pattern, f);
 }

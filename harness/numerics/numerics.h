@@ -64,10 +64,11 @@ typedef struct factor_counts {
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
  * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
- * factored as LU. A matrix with by_numbers is factored as LDL^T, from its upper triangle,
- * if its asymmetry is at most FACTOR_SYMMETRIC_WITHIN, and otherwise as LU. */
+ * factored by KLU. A matrix with by_numbers is factored as LDL^T, from its upper triangle,
+ * if its asymmetry is at most FACTOR_SYMMETRIC_WITHIN, and otherwise by KLU. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
-/* Like factor_alloc, for an unsymmetric matrix that consists of [copies x copies] blocks of equal
+/* Like factor_alloc, for an unsymmetric matrix of a motion, which is factored by dense fronts, and
+ * by KLU only if rows must be exchanged. The matrix consists of [copies x copies] blocks of equal
  * size, such as the stages of a step. The unknowns with the same index in all blocks are eliminated
  * one after the other, the last block first. */
 status factor_alloc_copies(const sparse *pattern, int copies, matrix_factor **out, fault *f);

@@ -152,7 +152,7 @@ void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, doubl
 
 typedef struct factor_unsymmetric factor_unsymmetric;
 
-/* copies: see factor_alloc_copies. */
+/* copies: see factor_alloc_copies; 0: KLU factors all matrices. */
 status factor_unsymmetric_alloc(const sparse *pattern, int copies, factor_unsymmetric **out,
                                 factor_counts *counts, fault *f);
 void factor_unsymmetric_free(factor_unsymmetric *fu);

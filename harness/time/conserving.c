@@ -277,7 +277,7 @@ static status allocate(conserving *s, fault *f)
     metric_of(m, s->weight);
     TRY(assemble_pattern_in_time(s->of.c->model, s->of.c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
-    return factor_alloc(pattern, &s->factor, f);
+    return factor_alloc_copies(pattern, 1, &s->factor, f);
 }
 
 status conserving_alloc(const scheme_request *request, motion_scheme **out, fault *f)

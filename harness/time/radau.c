@@ -181,7 +181,7 @@ static status allocate(radau *r, fault *f)
     TRY(sparse_alloc_like(pattern, &r->K, f));
     TRY(stages_alloc(&r->of.c->eq, r->of.masses, pattern, &r->S, f));
     TRY(factor_alloc_copies(&r->S.whole, STAGES, &r->factor, f));
-    return factor_alloc(pattern, &r->single, f);
+    return factor_alloc_copies(pattern, 1, &r->single, f);
 }
 
 status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)

@@ -26,7 +26,7 @@ status stage_alloc(analysis_context *c, const frame_masses *masses, motion_stage
         TRY(strain_update_alloc(&c->eq, &s->strain_update, f));
     TRY(assemble_pattern_in_time(c->model, c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
-    return factor_alloc(pattern, &s->factor, f);
+    return factor_alloc_copies(pattern, 1, &s->factor, f);
 }
 
 void stage_free(motion_stage *s)
