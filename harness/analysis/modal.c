@@ -3,6 +3,7 @@
  * for rotations. */
 #include "harness/analysis/analysis_impl.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,6 +85,63 @@ static double eigenvalue(modal_forms *about, double mu, const double mode[])
     memcpy(about->of.x, mode, (size_t)about->of.free * sizeof *mode);
     const double k = square * mu, b = rotating_frame_inner(about->of.eq->m, about->of.x);
     return 2 * k / (mu + sqrt(mu * mu + 4 * b * k));
+}
+
+/* Returns x^T B y, where B is the mass of the motions inside the elements. */
+static double inner_product(modal_forms *about, const double x[], const double y[])
+{
+    const int n = about->of.free;
+    double part[2];
+    for (int minus = 0; minus < 2; minus++) {
+        for (int i = 0; i < n; i++)
+            about->of.x[i] = x[i] + (minus ? -y[i] : y[i]);
+        part[minus] = rotating_frame_inner(about->of.eq->m, about->of.x);
+    }
+    return (part[0] - part[1]) / 4;
+}
+
+/* Replaces the modes of an eigenvalue with this multiplicity, which may be any basis, by those for
+ * which B is diagonal, because `eigenvalue` treats the modes one by one. */
+static status separate_equal(modal_forms *about, int multiplicity, double mu[], double mode[],
+                             fault *f)
+{
+    const size_t n = (size_t)about->of.free, m = (size_t)multiplicity;
+    double *B = calloc(m * m + 3 * m, sizeof *B), *b = B + m * m, *before = b + m,
+           *row = before + m;
+    if (B == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %zu modes", m);
+    memcpy(before, mu, m * sizeof *mu);
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i <= j; i++)
+            B[j * m + i] = inner_product(about, mode + i * n, mode + j * n);
+    const int info = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', multiplicity, B, multiplicity, b);
+    for (size_t i = 0; info == 0 && i < n; i++) {
+        for (size_t k = 0; k < m; k++)
+            row[k] = mode[k * n + i];
+        for (size_t j = 0; j < m; j++)
+            mode[j * n + i] = dense_dot(multiplicity, row, B + j * m);
+    }
+    for (size_t j = 0; info == 0 && j < m; j++) {
+        mu[j] = 0;
+        for (size_t k = 0; k < m; k++)
+            mu[j] += B[j * m + k] * B[j * m + k] * before[k];
+    }
+    free(B);
+    return STATUS_OK;
+}
+
+static status separate(modal_forms *about, eigen_side *side, fault *f)
+{
+    const double equal = 1e-6;
+    for (int first = 0, next; first < side->count && !about->prestressed; first = next) {
+        for (next = first + 1; next < side->count &&
+                               side->mu[next - 1] - side->mu[next] <= equal * side->mu[next - 1];)
+            next++;
+        if (next - first > 1)
+            TRY(separate_equal(about, next - first, side->mu + first,
+                               side->mode + (size_t)first * (size_t)about->of.free, f));
+    }
+    return STATUS_OK;
 }
 
 static void swap(double *a, double *b, int count)
@@ -229,7 +287,9 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     linear_system s = {0};
     eigen_result e = {0};
     modal_forms about = {0};
-    const status result = solve(c, analysis, &s, &about, &e, f);
+    status result = solve(c, analysis, &s, &about, &e, f);
+    if (result == STATUS_OK)
+        result = separate(&about, &e.positive, f);
     keep(&about, &e.positive, o);
     snprintf(o->left.spectrum.meaning, sizeof o->left.spectrum.meaning, "%s",
              flutter_damping(c->model, 0));
