@@ -1,6 +1,7 @@
 #include "harness/analysis/analysis_impl.h"
 
 #include <float.h>
+#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -427,6 +428,120 @@ static void sort(unsymmetric_solver *s)
         }
 }
 
+/* Indices of equal eigenvalues, and of their left vectors. */
+typedef struct equal_values {
+    int count, lefts;
+    int *right, *left;
+} equal_values;
+
+static void find_equal(const unsymmetric_solver *s, int i, equal_values *of)
+{
+    const double equal = 1e-6, same_left = 1e-4;
+    const double complex theta = s->right.theta[i];
+    of->count = of->lefts = 0;
+    for (int j = 0; j < s->right.count; j++)
+        if (cabs(s->right.theta[j] - theta) <= equal * cabs(theta))
+            of->right[of->count++] = j;
+    for (int j = 0; j < s->left.count; j++)
+        if (cabs(s->left.theta[j] - theta) <= same_left * cabs(theta))
+            of->left[of->lefts++] = j;
+}
+
+/* Replaces the vectors of equal eigenvalues, which may be any basis, by those for which B is
+ * diagonal, because with_inside treats the modes one by one: the vectors of S^-1 W^T B X, where S =
+ * W^T (2 z M + C) X, and W contains the left vectors. The products of the new left vectors, (S
+ * T)^-1 W^T, with the new vectors X T are zero. S, Y, T: [count x count], x: [count x size] work
+ * space. */
+static void separate_equal(unsymmetric_solver *s, const equal_values *of, const growth_estimate *e,
+                           double complex S[], double complex Y[], double complex T[],
+                           double complex x[], double complex z[], int pivot[])
+{
+    const int g = of->count, n = s->n;
+    const size_t size = (size_t)(n + s->massive), N = (size_t)n;
+    const double complex at = root(s, s->right.theta[of->right[0]]);
+    for (int j = 0; j < g; j++) {
+        for (int k = 0; k < n; k++)
+            e->x[k] = s->right.mode[(size_t)of->right[j] * size + (size_t)k] / s->scale[k];
+        for (int i = 0; i < g; i++) {
+            const double complex *w = e->left + (size_t)of->left[i] * N;
+            S[i * g + j] =
+                2 * at * form(s, s->p->M, w, e->x, e->y) + form(s, s->p->C, w, e->x, e->y);
+            Y[i * g + j] = form(s, s->p->B, w, e->x, e->y);
+        }
+    }
+    memcpy(x, S, (size_t)(g * g) * sizeof *x);
+    if (LAPACKE_zgesv(LAPACK_ROW_MAJOR, g, g, x, g, pivot, Y, g) != 0 ||
+        LAPACKE_zgeev(LAPACK_ROW_MAJOR, 'N', 'V', g, Y, g, z, NULL, 1, T, g) != 0)
+        return;
+    for (int i = 0; i < g; i++)
+        for (int j = 0; j < g; j++) {
+            Y[i * g + j] = 0;
+            for (int k = 0; k < g; k++)
+                Y[i * g + j] += S[i * g + k] * T[k * g + j];
+        }
+    for (int i = 0; i < g; i++)
+        memcpy(x + (size_t)i * N, e->left + (size_t)of->left[i] * N, N * sizeof *x);
+    if (LAPACKE_zgesv(LAPACK_ROW_MAJOR, g, n, Y, g, pivot, x, n) != 0)
+        return;
+    for (int i = 0; i < g; i++)
+        memcpy(e->left + (size_t)of->left[i] * N, x + (size_t)i * N, N * sizeof *x);
+    for (size_t k = 0; k < size; k++) {
+        for (int j = 0; j < g; j++) {
+            x[j] = 0;
+            for (int i = 0; i < g; i++)
+                x[j] += s->right.mode[(size_t)of->right[i] * size + k] * T[i * g + j];
+        }
+        for (int j = 0; j < g; j++)
+            s->right.mode[(size_t)of->right[j] * size + k] = x[j];
+    }
+}
+
+static status separate(unsymmetric_solver *s, const growth_estimate *e, fault *f)
+{
+    const size_t m = (size_t)s->right.count + (size_t)s->left.count + 1,
+                 size = (size_t)(s->n + s->massive);
+    int *index = malloc(3 * m * sizeof *index);
+    double complex *room = malloc((3 * m * m + m + m * size) * sizeof *room);
+    equal_values of = {.right = index, .left = index + m};
+    for (int i = 0; index != NULL && room != NULL && i < s->right.count; i++) {
+        find_equal(s, i, &of);
+        if (of.count > 1 && of.lefts == of.count && of.right[0] == i)
+            separate_equal(s, &of, e, room, room + m * m, room + 2 * m * m, room + 3 * m * m + m,
+                           room + 3 * m * m, index + 2 * m);
+    }
+    const status outcome =
+        index != NULL && room != NULL
+            ? STATUS_OK
+            : fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->right.count);
+    free(index);
+    free(room);
+    return outcome;
+}
+
+static void swap_numbers(double *a, double *b, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+/* Sorts the modes again, because the motions inside the elements may have changed their order. */
+static void sort_results(unsymmetric_result *r)
+{
+    const size_t n = (size_t)r->n;
+    for (int i = 1; i < r->count; i++)
+        for (int k = i; k > 0 && hypot(r->frequency[k], r->growth[k]) <
+                                     hypot(r->frequency[k - 1], r->growth[k - 1]);
+             k--) {
+            double *const numbers[] = {r->frequency, r->growth, r->split, r->error};
+            for (int j = 0; j < 4; j++)
+                swap_numbers(numbers[j] + k, numbers[j] + k - 1, 1);
+            swap_numbers(r->mode + (size_t)k * n, r->mode + (size_t)(k - 1) * n, n);
+        }
+}
+
 static status store_results(unsymmetric_solver *s, fault *f)
 {
     unsymmetric_result *r = s->out;
@@ -439,9 +554,13 @@ static status store_results(unsymmetric_solver *s, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->right.count);
     r->growth = r->frequency + count;
     r->split = r->growth + count;
-    const status outcome = s->p->estimate ? left_vectors(s, &e, f) : STATUS_OK;
+    status outcome = s->p->estimate ? left_vectors(s, &e, f) : STATUS_OK;
+    if (outcome == STATUS_OK && s->p->estimate && s->p->B != NULL)
+        outcome = separate(s, &e, f);
     for (int i = 0; outcome == STATUS_OK && i < s->right.count; i++)
         take(s, i, s->p->estimate ? error_of(s, i, &e) : 0, &e);
+    if (outcome == STATUS_OK && s->p->B != NULL)
+        sort_results(r);
     free(e.x);
     return outcome;
 }

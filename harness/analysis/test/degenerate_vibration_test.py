@@ -351,8 +351,8 @@ class FrequencyOrder(ProgramTest):
                         a=", hold: all")
 
     def test_motions_inside_elements(self):
-        """The frequencies of a square section do not depend on the direction of its y axis, although `sheet_third` has no
-        shear along y: the masses inside its elements split the double eigenvalues of K and M."""
+        """The frequencies of a square section, with and without damping, do not depend on the direction of its y axis,
+        although `sheet_third` has no shear along y: the masses inside its elements split the double eigenvalues of K and M."""
         nodes = "left: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, right: {at: [10, 0, 0], hold: [uy, uz]}"
         section = ("polar: {rectangle: {width: 2, thickness: 2}, shear_factor: 0.8333333333333334, given: {Iw: 0, It: 2.6666666666666665},"
                    " young: 2e11, shear_modulus: 7.7e10, density: 8000}")
@@ -362,9 +362,11 @@ class FrequencyOrder(ProgramTest):
             path.write_text(f"""beamwork: 1
 sections: {{{section}}}
 nodes: {{{nodes}}}
-members: {{m: {{from: left, to: right, section: polar, y: [0, {math.cos(angle)}, {math.sin(angle)}], warping: [free, free]}}}}
-analyses: {{v: {{modal: {{}}}}}}
-quantities: {{f_$n: {{for: {{n: 1..8}}, frequency: {{analysis: v, which: n - 1}}, unit: Hz}}}}
+members: {{m: {{from: left, to: right, section: polar, y: [0, {math.cos(angle)}, {math.sin(angle)}], warping: [free, free], damping: 1e-4}}}}
+analyses: {{v: {{modal: {{}}}}, w: {{modal: {{damped: yes}}}}}}
+quantities:
+  f_$n: {{for: {{n: 1..8}}, frequency: {{analysis: v, which: n - 1}}, unit: Hz}}
+  g_$n: {{for: {{n: 1..8}}, frequency: {{analysis: w, which: n - 1}}, unit: Hz}}
 """, encoding="utf-8")
             found.append([row["value"] for n in (1, 2, 3)
                           for row in self.record("solve", "--scene", path, "-f", "sheet_third", "-n", n)["quantities"]])
