@@ -132,8 +132,9 @@ static status begin_values(flutter_check *j, fault *f)
     j->work = malloc((1 + 3 * VECTORS) * n * sizeof *j->work + 1);
     if (j->work == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the stability of %zu coordinates", n);
-    for (size_t i = 0; i < VECTORS * n; i++)
-        j->work[n + i] = sin(1 + 1.7 * (double)i * (double)(1 + i / n));
+    for (size_t c = 0; c < VECTORS; c++)
+        for (size_t i = 0; i < n; i++)
+            j->work[(1 + c) * n + i] = sin(1 + 1.7 * (double)((c + 1) * (c * n + i)));
     return STATUS_OK;
 }
 

@@ -457,7 +457,7 @@ static void separate_equal(unsymmetric_solver *s, const equal_values *of, const 
                            double complex x[], double complex z[], int pivot[])
 {
     const int g = of->count, n = s->n;
-    const size_t size = (size_t)(n + s->massive), N = (size_t)n;
+    const size_t size = (size_t)n + (size_t)s->massive, N = (size_t)n;
     const double complex at = root(s, s->right.theta[of->right[0]]);
     for (int j = 0; j < g; j++) {
         for (int k = 0; k < n; k++)
@@ -499,7 +499,7 @@ static void separate_equal(unsymmetric_solver *s, const equal_values *of, const 
 static status separate(unsymmetric_solver *s, const growth_estimate *e, fault *f)
 {
     const size_t m = (size_t)s->right.count + (size_t)s->left.count + 1,
-                 size = (size_t)(s->n + s->massive);
+                 size = (size_t)s->n + (size_t)s->massive;
     int *index = malloc(3 * m * sizeof *index);
     double complex *room = malloc((3 * m * m + m + m * size) * sizeof *room);
     equal_values of = {.right = index, .left = index + m};

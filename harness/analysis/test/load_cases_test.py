@@ -195,7 +195,7 @@ quantities:
             (head + "analyses: {x: {linear: {}}}\n" + u, ["u: analysis x solves every load case", "combination: ULS"]),
             (head + "analyses: {x: {linear: {combination: ULS}}}\n" + u.replace("WHICH", "combination: SLS,"),
              ["u: analysis x is solved only for combination ULS"]),
-            (head + "analyses: {x: {linear: {combination: SUL}}}\n" + u, ["no combination 'SUL'", "'ULS'"]),
+            (head + "analyses: {x: {linear: {combination: SUL}}}\n" + u, ["no combination 'SUL'"]),
             (head + "analyses: {x: {linear: {case: ded}}}\n" + u, ["no load case 'ded'", "'dead'"]),
             (head + "analyses: {x: {linear: {}}, y: {modal: {about: x}}}\n"
              + u.replace("WHICH", "case: dead,"), ["its base state is that of analysis x, which solves every"]),

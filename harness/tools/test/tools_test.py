@@ -371,7 +371,7 @@ class Make(Folder):
         told = [line.split() for line in self.make("help") if line]
         self.assertEqual({words[1] for words in told}, {
             "all", "verify", "test", "report", "docs", "bench", "compare", "baseline", "check",
-            "truths", "install", "clean", "help", "lab", "words", "peers"})
+            "truths", "install", "clean", "help", "lab", "words", "peers", "site"})
 
     def test_laboratory(self):
         listed = [line.split(maxsplit=3)[2:] for line in self.make("lab") if line]
