@@ -159,7 +159,7 @@ static void check_refusals(void)
     check_refused("sin(t, t)", 1, "sin takes one argument, not 2");
     check_refused("min(1)*t", 1, "min takes two or more arguments, not 1");
     check_refused("mod(1, 0)*t", 1, "mod has no value for its arguments");
-    check_refused("3mm", 2, "20e-3 for 20 mm");
+    check_refused("3mm", 2, "write 20 mm as 20e-3");
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
     check_refused("0x10", 2, "'x10' follows a number");

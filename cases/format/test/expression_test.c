@@ -257,7 +257,7 @@ static void check_bad_loops(void)
         const char *text;
         int column;
         const char *message;
-    } all[] = {{"n_$j: {for: {i: 0..2}}\n", 3, "did you mean 'i'"},
+    } all[] = {{"n_$j: {for: {i: 0..2}}\n", 3, "unknown loop name '$j'"},
                {"n_$i: {for: {i: [0.5, 1]}}\n", 3, "only whole numbers"},
                {"n_$i: {for: 0..2}\n", 13, "for: {i: 0..5}"},
                {"n_$i: {for: {i: 0..99999}}\n", 17, "more than 10000"},
