@@ -142,6 +142,10 @@ static status compare_transfer(const vibration *v, const system_matrices *s,
         if (w == 0 && whole->motions > 0)
             continue; /* the response to a constant acceleration is infinite */
         outcome = second_order_transfer(whole, w, t.whole, t.kind, t.rounding, f);
+        if (outcome == STATUS_SINGULAR) {
+            outcome = STATUS_OK;
+            continue; /* the response at a resonance without damping is infinite */
+        }
         if (outcome == STATUS_OK)
             outcome = second_order_transfer(small, w, t.reduced, NULL, NULL, f);
         if (outcome == STATUS_OK)

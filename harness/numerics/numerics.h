@@ -392,7 +392,7 @@ status second_order_frequencies(const second_order *, double hertz[], fault *);
 /* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
  * real and imaginary parts. rounding[outputs x inputs]: bound of the rounding errors, for which
  * kind[n + motions] contains small numbers, equal for coordinates with the same unit; both may be
- * NULL. */
+ * NULL. SINGULAR: the functions are infinite. */
 status second_order_transfer(const second_order *, double w, double out[], const char kind[],
                              double rounding[], fault *);
 

@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "elements/math/scalar.h"
+
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f)
 {
     *out = *pattern;
@@ -186,9 +188,9 @@ double by_numbers_take(by_numbers *b, const sparse *a)
                 continue;
             const double part =
                 fabs(value - other) / (b->diagonal[j] * b->diagonal[b->upper.row[k]]);
-            largest = part <= largest ? largest : part; /* NaN counts as unsymmetric */
+            largest = larger(largest, part);
         }
-    return isnan(largest) ? INFINITY : largest;
+    return isnan(largest) ? INFINITY : largest; /* NaN counts as unsymmetric */
 }
 
 const sparse *by_numbers_upper(const by_numbers *b)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/scalar.h"
 #include "harness/numerics/numerics_impl.h"
 
 typedef struct transfer {
@@ -119,6 +120,10 @@ status second_order_transfer(const second_order *m, double w, double pairs[], co
     free(room);
     free(scales);
     free(pivot);
-    return info >= 0 ? STATUS_OK
+    if (info > 0)
+        return fault_set(f, STATUS_SINGULAR,
+                         "the response at %g Hz is infinite; add damping, or remove this frequency",
+                         w / (2 * PI));
+    return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_FAULT, "out of memory for transfer functions");
 }

@@ -606,6 +606,23 @@ static void products_between(void)
         }
 }
 
+/* An oscillator without damping, K = 4 and M = 1, must have the response 1/(4 - w^2) at w = 1, and
+ * none at w = 2. */
+static void check_resonance(void)
+{
+    second_order m = {0};
+    fault f = {""};
+    double out[2];
+    gsl_test(second_order_alloc(1, 0, 1, 1, &m, &f) != STATUS_OK, "oscillator: %s", f.text);
+    m.K[0] = 4;
+    m.M[0] = m.B[0] = m.L[0][0] = 1;
+    m.motion_of[0] = -1;
+    gsl_test(second_order_transfer(&m, 1, out, NULL, NULL, &f) != STATUS_OK, "at w = 1");
+    gsl_test_rel(out[0], 1.0 / 3, 1e-15, "response at w = 1");
+    gsl_test(second_order_transfer(&m, 2, out, NULL, NULL, &f) != STATUS_SINGULAR, "at w = 2");
+    second_order_free(&m);
+}
+
 int main(void)
 {
     products_between();
@@ -613,5 +630,6 @@ int main(void)
     singular_matrix_tests();
     thread_pool_tests();
     triangular_tests();
+    check_resonance();
     return gsl_test_summary();
 }
