@@ -414,7 +414,7 @@ class Pages(ProgramTest):
             places = [page.index(part) for part in parts if part in page]
             self.assertEqual(places, sorted(places), name)
             self.assertIn(parts[4], page)
-            if "judged quantities" in page:
+            if "quantities with a reference value" in page:
                 self.assertEqual(len(places), len(parts), name)
                 self.assertGreater(page.index("<svg"), places[0])
 
