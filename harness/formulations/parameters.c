@@ -97,7 +97,9 @@ int assignment_value(const parameter_type *p, const char *text, double *value)
 void parameter_unit_words(const parameter_type *p, char out[PARAMETER_UNIT_WORDS])
 {
     const int plain = p->unit[0] == '\0' || strcmp(p->unit, "1") == 0;
-    snprintf(out, PARAMETER_UNIT_WORDS, plain ? "" : " in %.40s, without the unit", p->unit);
+    out[0] = '\0';
+    if (!plain)
+        snprintf(out, PARAMETER_UNIT_WORDS, " in %.40s, without the unit", p->unit);
 }
 
 static status set_value(const assignment_list *l, const parameter_type *p, const char *text,

@@ -241,7 +241,7 @@ static int analyse(const sparse *a, int copies, fronts *t, elimination *e, facto
 fronts *fronts_alloc(const sparse *pattern, int copies, factor_counts *counts)
 {
     fronts *t = calloc(1, sizeof *t);
-    elimination e = {NULL};
+    elimination e = {0};
     if (t == NULL)
         return NULL;
     if (!analyse(pattern, copies, t, &e, counts)) {
