@@ -181,14 +181,33 @@ typedef struct flutter_state {
     double square[FLUTTER_MOTIONS];
 } flutter_state;
 
+/* Lowest eigenvalues of symmetric tangents K along a path, in the metric D. The eigenvectors of the
+ * last tangent are the first approximation. */
+
+enum { LOWEST_VALUES = 4 };
+
+typedef struct lowest_values {
+    int n, measured; /* measured 1: D is known */
+    int known;       /* 1: `value` belongs to the last tangent */
+    double value[LOWEST_VALUES];
+    double *work; /* [n] D, [LOWEST_VALUES x n] vectors, [LOWEST_VALUES x n] work space */
+} lowest_values;
+
+status lowest_values_alloc(int n, lowest_values *, fault *);
+void lowest_values_free(lowest_values *);
+/* Stores the lowest eigenvalues of the factored K, with a relative accuracy of 1e-2, in ascending
+ * order. Returns their number; 0: unknown. The first K sets D. */
+int lowest_values_find(lowest_values *, const sparse *K, matrix_factor *,
+                       double value[LOWEST_VALUES]);
+
 /* Work space of an analysis. All members are initially zero. */
 typedef struct flutter_check {
-    int begun, measured;
+    int begun;
     /* run whose tangent has all coordinates, which the tangent of the path may not have */
     newton_run n;
     flutter_system of;
     flutter_state first, last, here; /* ends of the step, and the state that was examined last */
-    double *work; /* metric, vectors and work space of the eigenvalues of the tangent */
+    lowest_values lowest;
 } flutter_check;
 
 /* Stores the stability of the state in the record of the step that ended in the state; STEP_OPEN:

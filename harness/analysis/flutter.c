@@ -1,12 +1,10 @@
 #include "harness/analysis/analysis_impl.h"
 
-#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/dense.h"
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
@@ -119,32 +117,19 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     return s->damped ? "flutter, growth with damping" : "flutter, undamped";
 }
 
-enum { MOTIONS = FLUTTER_MOTIONS, PARTS = 6, VECTORS = 4 };
+enum { MOTIONS = FLUTTER_MOTIONS, PARTS = 6 };
 static const double most_error = 1e-2; /* if the error is larger, the mode is unknown */
 static const double real_part =
     1e-6; /* smaller imaginary parts, relative to the magnitude, are rounding errors */
-
-/* Allocates the metric D and the vectors. */
-static status begin_values(flutter_check *j, fault *f)
-{
-    const size_t n = (size_t)j->n.free;
-    j->first.path = NAN;
-    j->work = malloc((1 + 3 * VECTORS) * n * sizeof *j->work + 1);
-    if (j->work == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the stability of %zu coordinates", n);
-    for (size_t c = 0; c < VECTORS; c++)
-        for (size_t i = 0; i < n; i++)
-            j->work[(1 + c) * n + i] = sin(1 + 1.7 * (double)((c + 1) * (c * n + i)));
-    return STATUS_OK;
-}
 
 status flutter_check_begin(flutter_check *j, analysis_context *c, fault *f)
 {
     if (j->begun)
         return STATUS_OK;
     j->begun = 1;
+    j->first.path = NAN;
     TRY(newton_alloc(c, 0, &j->n, f));
-    return begin_values(j, f);
+    return lowest_values_alloc(j->n.free, &j->lowest, f);
 }
 
 /* Returns the stability according to the modes. An odd number of negative eigenvalues of K always
@@ -236,7 +221,7 @@ void flutter_check_free(flutter_check *j)
         return;
     flutter_system_free(&j->of);
     newton_free(&j->n);
-    free(j->work);
+    lowest_values_free(&j->lowest);
 }
 
 static const double near_enough =
@@ -257,86 +242,10 @@ static status degree(flutter_check *j, int inside, step_record *record, fault *f
     return STATUS_OK;
 }
 
-/* Solves the projected problem A c = lambda B c and replaces X by Y C. Returns 0 if the vectors are
- * dependent. */
-static int project(int n, int count, double A[], double B[], const double Y[], double X[],
-                   double lambda[])
+/* Sets the values of j->here to the lowest eigenvalues of the symmetric tangent K. */
+static void lowest_of(flutter_check *j, const sparse *K, matrix_factor *factor)
 {
-    if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', count, A, count, B, count, lambda) != 0)
-        return 0;
-    for (int c = 0; c < count; c++)
-        for (int i = 0; i < n; i++) {
-            double sum = 0;
-            for (int k = 0; k < count; k++)
-                sum += A[c * count + k] * Y[(size_t)k * (size_t)n + (size_t)i];
-            X[(size_t)c * (size_t)n + (size_t)i] = sum;
-        }
-    return 1;
-}
-
-/* One inverse iteration of the vectors X in the metric D. */
-static int iterate(flutter_check *j, matrix_factor *K, int count, double lambda[])
-{
-    const int n = j->n.free;
-    const size_t N = (size_t)n;
-    const double *D = j->work;
-    double *X = j->work + N, *Y = X + VECTORS * N, *DX = Y + VECTORS * N, A[VECTORS * VECTORS],
-           B[VECTORS * VECTORS];
-    for (int c = 0; c < count; c++)
-        for (int i = 0; i < n; i++)
-            DX[(size_t)c * N + (size_t)i] = Y[(size_t)c * N + (size_t)i] =
-                D[i] * X[(size_t)c * N + (size_t)i];
-    factor_solve_many(K, count, n, Y);
-    for (int c = 0; c < count; c++)
-        for (int k = 0; k <= c; k++) {
-            const double *y = Y + (size_t)k * N, *z = Y + (size_t)c * N;
-            double sum = 0;
-            for (int i = 0; i < n; i++)
-                sum += y[i] * D[i] * z[i];
-            B[c * count + k] = sum;
-            A[c * count + k] = dense_dot(n, y, DX + (size_t)c * N);
-        }
-    return project(n, count, A, B, Y, X, lambda);
-}
-
-/* Sets the metric to the diagonal of the first tangent. */
-static void choose_metric(flutter_check *j, const sparse *K)
-{
-    double largest = 0;
-    for (int i = 0; i < K->n; i++) {
-        j->work[i] = fabs(sparse_diagonal(K, i));
-        largest = fmax(largest, j->work[i]);
-    }
-    for (int i = 0; i < K->n; i++)
-        if (!(j->work[i] > 0))
-            j->work[i] = largest > 0 ? largest : 1;
-    j->measured = 1;
-}
-
-/* Sets the lowest eigenvalues of the symmetric tangent K. The vectors of the last call are the
- * first approximation. */
-static void lowest_values(flutter_check *j, const sparse *K, matrix_factor *factor)
-{
-    enum { MOST_ITERATIONS = 12 };
-    const double wanted_accuracy = 1e-2;
-    const int count = j->n.free < VECTORS ? j->n.free : VECTORS;
-    double before[VECTORS] = {0};
-    if (!j->measured)
-        choose_metric(j, K);
-    j->here.modes = 0;
-    for (int i = 0; i < MOST_ITERATIONS; i++) {
-        double *lambda = j->here.square;
-        int same = i > 0;
-        if (!iterate(j, factor, count, lambda))
-            return;
-        for (int k = 0; k < count; k++)
-            same &= fabs(lambda[k] - before[k]) <= wanted_accuracy * fabs(lambda[k]);
-        memcpy(before, lambda, (size_t)count * sizeof *before);
-        if (!same)
-            continue;
-        j->here.modes = count;
-        return;
-    }
+    j->here.modes = lowest_values_find(&j->lowest, K, factor, j->here.square);
 }
 
 /* Factors K in the state of j->n, for the loads at `path`, and sets j->here. */
@@ -352,7 +261,7 @@ static status look(flutter_check *j, int inside, double path, step_record *recor
         return STATUS_OK;
     TRY(degree(j, inside, record, f));
     if (j->here.unstable >= 0 && !j->here.by_modes)
-        lowest_values(j, &j->n.K, j->n.factor);
+        lowest_of(j, &j->n.K, j->n.factor);
     return STATUS_OK;
 }
 
@@ -479,7 +388,7 @@ static status look_at_ends(flutter_check *j, const newton_run *n, step_record *r
     if (record->negative_pivots >= 0 && own) {
         j->here = (flutter_state){.path = kinematics_state_path(n->state),
                                   .unstable = record->negative_pivots};
-        lowest_values(j, &n->K, n->factor);
+        lowest_of(j, &n->K, n->factor);
         j->last = j->here;
     } else {
         TRY(examine(j, n->state, record, &j->last, f));
