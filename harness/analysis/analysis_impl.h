@@ -15,12 +15,6 @@
  * have converged, further start vectors are added until one of them gives no new eigenvalue of this
  * magnitude. */
 
-typedef struct arnoldi_problem {
-    int n, wanted;
-    void (*apply)(void *context, const double x[], double y[]); /* y = T x */
-    void *context;
-} arnoldi_problem;
-
 typedef struct arnoldi_result {
     /* number of eigenvalues. It is smaller than `wanted` if the remaining eigenvalues are rounding
      * errors, and larger by one if the last eigenvalue is the first of a conjugate pair. */
@@ -31,6 +25,17 @@ typedef struct arnoldi_result {
     double *residual;     /* [count] |T x - theta x|/|theta| */
     long applied;
 } arnoldi_result;
+
+typedef struct arnoldi_problem {
+    int n, wanted;
+    void (*apply)(void *context, const double x[], double y[]); /* y = T x */
+    void *context;
+    /* For few coordinates, T is formed as a matrix. Then values_only 1 leaves the modes and
+     * residuals of the result empty, and `left` receives the eigenvectors of the transpose of T,
+     * if it is not NULL. */
+    int values_only;
+    arnoldi_result *left;
+} arnoldi_problem;
 
 status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
 void arnoldi_free(arnoldi_result *);
@@ -86,6 +91,7 @@ typedef struct unsymmetric_problem {
     matrix_factor *K_factor; /* after factor_numeric */
     int wanted;              /* number of requested modes, which have the smallest |s| */
     int estimate;            /* 1: estimates the errors, which doubles the work */
+    int values_only;         /* 1: the modes are not requested */
     int decaying;    /* 1: if C is given, modes that decay without oscillation are included */
     const sparse *B; /* mass matrix of the motions inside elements, if C is given; NULL: none */
     /* coefficients of the proportional damping in C: mass [1/s], stiffness [s] */
@@ -104,7 +110,7 @@ typedef struct unsymmetric_result {
                                    below the rounding error of a double eigenvalue */
     double *split;              /* [count] imaginary part of s^2 relative to |s^2|; 1: divergence */
     double *error;              /* [count] estimated rounding error relative to |s| */
-    double *mode;               /* [count x n] real */
+    double *mode;               /* [count x n] real; zero if they are not requested */
     /* number of slow poles of feedback integrals that are unknown, with an error of INFINITY */
     int lost;
     long solutions;
@@ -135,8 +141,11 @@ typedef struct flutter_system {
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
+/* What is computed of the motions: frequencies and growth rates, modes, errors. */
+typedef enum flutter_detail { FLUTTER_VALUES, FLUTTER_MODES, FLUTTER_ERRORS } flutter_detail;
+
 /* Computes the `wanted` modes with the smallest |s| about the state. */
-status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
+status flutter_motions(const newton_run *, flutter_system *, int wanted, flutter_detail,
                        unsymmetric_result *, fault *);
 /* Moves the frequencies, modes and errors to an outcome. Values without significant digits become
  * NaN, and the status becomes NOT_CONVERGED. */

@@ -27,7 +27,8 @@ typedef struct solver {
      * start vector */
     int room, count, chain;
     double *Q, *TQ, *H; /* [room x n] basis Q, [room x n] T Q, [room x room] Q^T T Q */
-    double *work, *A, *z, *re, *im;
+    int whole;          /* 1: Q is the identity */
+    double *work, *A, *z, *left, *re, *im; /* left: NULL if left vectors are not requested */
     int *order;
     unsigned long long seed;
     int found;
@@ -102,6 +103,23 @@ static int grow(solver *s)
     return 1;
 }
 
+/* Makes Q the identity. */
+static void span(solver *s)
+{
+    const int n = s->p->n;
+    s->whole = 1;
+    memset(s->Q, 0, (size_t)n * (size_t)n * sizeof *s->Q);
+    for (int k = 0; k < n; k++) {
+        double *q = s->Q + (size_t)k * (size_t)n, *Tq = s->TQ + (size_t)k * (size_t)n;
+        q[k] = 1;
+        s->p->apply(s->p->context, q, Tq);
+        for (int i = 0; i < n; i++)
+            s->H[i * s->room + k] = Tq[i];
+    }
+    s->count = n;
+    s->out->applied += n;
+}
+
 static double size_of(const solver *s, int i)
 {
     return hypot(s->re[s->order[i]], s->im[s->order[i]]);
@@ -119,13 +137,19 @@ static void sort(solver *s)
     }
 }
 
+static int has_modes(const solver *s)
+{
+    return !(s->p->values_only && s->whole);
+}
+
 static status ritz(solver *s, fault *f)
 {
     const int k = s->count;
     for (int j = 0; j < k; j++)
         for (int i = 0; i < k; i++)
             s->A[j * k + i] = s->H[i * s->room + j];
-    if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', k, s->A, k, s->re, s->im, NULL, 1, s->z, k) != 0)
+    if (LAPACKE_dgeev(LAPACK_COL_MAJOR, s->left != NULL && s->whole ? 'V' : 'N',
+                      has_modes(s) ? 'V' : 'N', k, s->A, k, s->re, s->im, s->left, k, s->z, k) != 0)
         return fault_set(
             f, STATUS_NOT_CONVERGED,
             "an eigenvalue problem of %d unknowns was not solved; use another number of elements",
@@ -143,20 +167,28 @@ static status ritz(solver *s, fault *f)
     return STATUS_OK;
 }
 
+/* Returns component j of the eigenvector z of eigenvalue i in the basis. */
+static double complex component(const solver *s, const double z[], int i, int j)
+{
+    const int at = s->order[i], second = s->im[at] < 0;
+    const double *re = z + (size_t)(second ? at - 1 : at) * (size_t)s->count, *im = re + s->count;
+    const double part = s->im[at] != 0 ? im[j] : 0;
+    return re[j] + I * (second ? -part : part);
+}
+
 /* Stores the eigenvector of eigenvalue i in x, and returns its residual relative to the
  * eigenvalue. */
 static double vector_of(const solver *s, int i, double complex x[])
 {
-    const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;
-    const double *re = s->z + (size_t)(second ? at - 1 : at) * (size_t)k, *im = re + k;
+    const int k = s->count, n = s->p->n, at = s->order[i];
     const double complex theta = s->re[at] + I * s->im[at];
     double residual = 0, length = 0;
     for (int row = 0; row < n; row++) {
-        double complex value = 0, image = 0;
+        double complex value = s->whole ? component(s, s->z, i, row) : 0, image = 0;
         for (int j = 0; j < k; j++) {
-            const double part = s->im[at] != 0 ? im[j] : 0;
-            const double complex c = re[j] + I * (second ? -part : part);
-            value += c * s->Q[(size_t)j * (size_t)n + (size_t)row];
+            const double complex c = component(s, s->z, i, j);
+            if (!s->whole)
+                value += c * s->Q[(size_t)j * (size_t)n + (size_t)row];
             image += c * s->TQ[(size_t)j * (size_t)n + (size_t)row];
         }
         x[row] = value;
@@ -210,26 +242,49 @@ static status iterate(solver *s, int vectors, fault *f)
     }
 }
 
+static status allocate_results(const solver *s, int modes, arnoldi_result *r, fault *f)
+{
+    const size_t n = (size_t)s->p->n, count = (size_t)s->found;
+    r->theta = calloc(count + 1, sizeof *r->theta);
+    r->mode = modes ? calloc(count * n + 1, sizeof *r->mode) : NULL;
+    r->residual = calloc(count + 1, sizeof *r->residual);
+    if (r->theta == NULL || (modes && r->mode == NULL) || r->residual == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->found);
+    r->count = s->found;
+    for (int i = 0; i < s->found; i++)
+        r->theta[i] = s->re[s->order[i]] + I * s->im[s->order[i]];
+    return STATUS_OK;
+}
+
+/* Stores the eigenvectors of the transpose of T. */
+static status store_left(const solver *s, fault *f)
+{
+    const size_t n = (size_t)s->p->n;
+    arnoldi_result *r = s->p->left;
+    TRY(allocate_results(s, 1, r, f));
+    for (int i = 0; i < s->found; i++)
+        for (int k = 0; k < s->p->n; k++)
+            r->mode[(size_t)i * n + (size_t)k] = conj(component(s, s->left, i, k));
+    return STATUS_OK;
+}
+
 static status store_results(solver *s, fault *f)
 {
     arnoldi_result *r = s->out;
-    const size_t n = (size_t)s->p->n, count = (size_t)s->found;
-    r->theta = calloc(count + 1, sizeof *r->theta);
-    r->mode = calloc(count * n + 1, sizeof *r->mode);
-    r->residual = calloc(count + 1, sizeof *r->residual);
-    if (r->theta == NULL || r->mode == NULL || r->residual == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->found);
-    r->count = s->found;
-    for (int i = 0; i < s->found; i++) {
-        r->theta[i] = s->re[s->order[i]] + I * s->im[s->order[i]];
-        r->residual[i] = vector_of(s, i, r->mode + (size_t)i * n);
-    }
-    return STATUS_OK;
+    TRY(allocate_results(s, has_modes(s), r, f));
+    for (int i = 0; has_modes(s) && i < s->found; i++)
+        r->residual[i] = vector_of(s, i, r->mode + (size_t)i * (size_t)s->p->n);
+    return s->left != NULL && s->whole ? store_left(s, f) : STATUS_OK;
 }
 
 static status find(solver *s, fault *f)
 {
     int vectors = FIRST + 2 * s->p->wanted;
+    if (s->p->n <= vectors) {
+        span(s);
+        TRY(ritz(s, f));
+        return store_results(s, f);
+    }
     for (int start = 0; start < MAX_STARTS; start++) {
         s->chain = 0;
         TRY(iterate(s, vectors, f));
@@ -250,7 +305,7 @@ static status allocate(solver *s, fault *f)
 {
     const size_t n = (size_t)s->p->n, room = (size_t)s->room;
     s->Q = malloc((2 * room + 1) * n * sizeof *s->Q);
-    s->H = calloc(3 * room * room + 2 * room + (size_t)s->p->wanted + 1, sizeof *s->H);
+    s->H = calloc(4 * room * room + 2 * room + (size_t)s->p->wanted + 1, sizeof *s->H);
     s->order = calloc(room + 1, sizeof *s->order);
     s->x = calloc(n + 1, sizeof *s->x);
     if (s->Q == NULL || s->H == NULL || s->order == NULL || s->x == NULL)
@@ -259,7 +314,8 @@ static status allocate(solver *s, fault *f)
     s->work = s->TQ + room * n;
     s->A = s->H + room * room;
     s->z = s->A + room * room;
-    s->re = s->z + room * room;
+    s->left = s->p->left != NULL ? s->z + room * room : NULL;
+    s->re = s->z + 2 * room * room;
     s->im = s->re + room;
     s->last = s->im + room;
     return STATUS_OK;

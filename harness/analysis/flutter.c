@@ -30,15 +30,16 @@ void flutter_system_free(flutter_system *s)
     sparse_free_values(&s->C);
 }
 
-status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int estimate,
-                       unsymmetric_result *r, fault *f)
+status flutter_motions(const newton_run *n, flutter_system *s, int wanted,
+                       flutter_detail detail, unsymmetric_result *r, fault *f)
 {
     const unsymmetric_problem p = {.K = &n->K,
                                    .M = &s->M,
                                    .C = s->damped ? &s->C : NULL,
                                    .K_factor = n->factor,
                                    .wanted = wanted,
-                                   .estimate = estimate};
+                                   .estimate = detail == FLUTTER_ERRORS,
+                                   .values_only = detail == FLUTTER_VALUES};
     if (!s->massless)
         TRY(rotating_frame_inertia(&n->c->eq, n->state, 0, &s->M, NULL, f));
     if (s->damped)
@@ -147,11 +148,11 @@ static step_stability by_motions(const flutter_check *j, const unsymmetric_resul
     return flutter_of(&j->of, r, &mode) == FLUTTER_NONE ? STEP_STABLE : STEP_GROWS;
 }
 
-static status ask_motions(flutter_check *j, int estimate, step_record *record, fault *f)
+static status ask_motions(flutter_check *j, flutter_detail detail, step_record *record, fault *f)
 {
     unsymmetric_result r = {0};
     fault why = {""};
-    const status outcome = flutter_motions(&j->n, &j->of, MOTIONS, estimate, &r, &why);
+    const status outcome = flutter_motions(&j->n, &j->of, MOTIONS, detail, &r, &why);
     if (outcome == STATUS_OK) {
         record->judged = by_motions(j, &r);
         j->here.modes = flutter_squares(&j->of, &r, MOTIONS, j->here.square);
@@ -187,8 +188,9 @@ static status flutter_check_factored(flutter_check *j, int inside, step_record *
     if (j->of.massless)
         return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
     if (inside)
-        TRY(ask_motions(j, 0, record, f));
-    return inside && record->judged == STEP_STABLE ? STATUS_OK : ask_motions(j, 1, record, f);
+        TRY(ask_motions(j, FLUTTER_VALUES, record, f));
+    return inside && record->judged == STEP_STABLE ? STATUS_OK
+                                                   : ask_motions(j, FLUTTER_ERRORS, record, f);
 }
 
 static status flutter_check_here(flutter_check *j, step_record *record, fault *f)
@@ -481,7 +483,11 @@ status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *
     memset(out, 0, sizeof *out);
     for (int wanted = FEWEST;; wanted *= 2) {
         arnoldi_result r = {0};
-        const arnoldi_problem p = {n, wanted < n ? wanted : n, apply, &of};
+        const arnoldi_problem p = {.n = n,
+                                   .wanted = wanted < n ? wanted : n,
+                                   .apply = apply,
+                                   .context = &of,
+                                   .values_only = 1};
         fault why = {""};
         int sure = 0;
         const status outcome = arnoldi_solve(&p, &r, &why);

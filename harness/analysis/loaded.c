@@ -84,10 +84,10 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
                             "the structure has no mass, so it has no frequencies; give a density "
                             "to a section, or a mass to a node");
     if (outcome == STATUS_OK)
-        outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
+        outcome = flutter_motions(n, &of, modal_wanted(c, analysis), FLUTTER_ERRORS, &r, f);
     if (outcome == STATUS_OK && of.damped)
-        outcome = flutter_motions(n, &(flutter_system){.M = of.M}, modal_wanted(c, analysis), 1,
-                                  &undamped, f);
+        outcome = flutter_motions(n, &(flutter_system){.M = of.M}, modal_wanted(c, analysis),
+                                  FLUTTER_ERRORS, &undamped, f);
     snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->model, 0));
     out->growth_meaning = flutter_damping(c->model, of.damped);
     const flutter_kind kind = outcome == STATUS_OK ? flutter_of(&of, &r, &mode) : FLUTTER_NONE;

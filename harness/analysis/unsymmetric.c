@@ -182,7 +182,11 @@ static void scale_integrals(unsymmetric_solver *s, double rate[])
 static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, fault *f)
 {
     const int damped = s->p->C != NULL, wanted = (damped ? 2 : 1) * s->p->wanted;
-    arnoldi_problem a = {.n = s->n + (damped ? s->massive : 0), .wanted = wanted, .context = s};
+    arnoldi_problem a = {.n = s->n + (damped ? s->massive : 0),
+                         .wanted = wanted,
+                         .context = s,
+                         .values_only = s->p->values_only && !s->p->estimate,
+                         .left = s->p->estimate && !transposed ? &s->left : NULL};
     if (damped)
         a.apply = transposed ? apply_damped_transposed : apply_damped;
     else
@@ -272,7 +276,8 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
 static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
 {
     const size_t n = (size_t)s->n;
-    TRY(pairs(s, 1, &s->left, f));
+    if (s->left.theta == NULL)
+        TRY(pairs(s, 1, &s->left, f));
     e->x = calloc((3 + (size_t)s->left.count) * n + 1, sizeof *e->x);
     if (e->x == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->left.count);
@@ -401,7 +406,8 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     r->growth[k] = !grows ? 0 : damped ? creal(at) : second ? -fabs(creal(at)) : fabs(creal(at));
     r->split[k] = creal(square) > 0 && cimag(theta) == 0 ? 1 : fabs(cimag(square)) / cabs(square);
     r->error[k] = error;
-    take_mode(s, i, second, r->mode + (size_t)k * (size_t)s->n);
+    if (!s->p->values_only)
+        take_mode(s, i, second, r->mode + (size_t)k * (size_t)s->n);
     r->count++;
 }
 
