@@ -228,8 +228,8 @@ typedef struct element_type {
      * sigma. G is the sum of sigma_i Q_i. Default: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
     /* Computes inertia. The frame does not rotate if its pointer is NULL. By default (NULL), the
-     * mass is that of the displacement field that is exact without loads (field/field.h). Elements
-     * with more than two nodes have lumped mass by default. */
+     * mass is that of the displacement field that is exact if loads act only at the nodes
+     * (field/field.h). Elements with more than two nodes have lumped mass by default. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -281,10 +281,10 @@ typedef struct element_type {
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
     /* Optional: kind of mass. If 1, `inertia` of an undeformed two-node element with these options
-     * is that of the displacement field that is exact without loads (field/field.h). With
-     * warping, the twist may be approximate. Frequencies are then corrected for the motion inside
-     * the element. If 0, frequencies are those of the mass matrix alone. A type without `inertia`
-     * has the value 1. */
+     * is that of the displacement field that is exact if loads act only at the nodes
+     * (field/field.h). With warping, the twist may be approximate. Frequencies are then corrected
+     * for the motion inside the element. If 0, frequencies are those of the mass matrix alone. A
+     * type without `inertia` has the value 1. */
     int (*mass_of_field)(const double options[]);
     /* Optional: computes the data of an element with an additional stress-free elongation [1] and
      * additional curvatures about y and z [1/m]. x contains the nodes of the element in the

@@ -163,7 +163,7 @@ def told_of(point, quantity):
 
 
 def figures_of(site, case, index, point):
-    """`point` is agreed.ranked() of the point."""
+    """Returns the figures of a point as a dictionary. `point` is the result of agreed.ranked()."""
     name = f"{case.name}_{point.name}"
     quantities = [q for q in answers.judged(point)
                   if any(plots.finite(s, q) for s in point.series)]

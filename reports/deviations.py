@@ -62,7 +62,8 @@ def left(v):
 
 
 def line(rule, rows, titles):
-    """`rows` are the verdicts of the entry, including those that are not counted."""
+    """Returns the table line of the known deviation `rule`. `rows` are its verdicts, including those of aliases and
+    misprints, which are not counted."""
     own = [r for r in rows if r.standing == verdicts.OWN]
     seen, left_out = verdicts.counts(rows)
     known = [r for r in own if math.isfinite(r.verdict.error)]

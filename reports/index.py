@@ -16,7 +16,7 @@ class AgreedRow:
     unit: str
     value: float
     errors: dict  # formulation -> error of its limit relative to `value`
-    meshes: dict  # formulation -> number of elements from which every mesh is within the level
+    meshes: dict  # formulation -> elements of the coarsest mesh from which all meshes are within the level
 
     def within(self, level):
         return sorted(key for key, error in self.errors.items() if abs(error) <= level)

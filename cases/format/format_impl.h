@@ -179,7 +179,8 @@ unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Returns the index of the entry that the key names, or SCENE_NONE. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Returns the name in a string: the word of a parameter with this name, otherwise the string. */
+/* Returns the word of the parameter that the string names, or the string itself if there is no such
+ * parameter. */
 const char *fields_called(const fields *f, const document_node *name);
 /* Returns 1 if the key names an existing entry. Reports no error. */
 int fields_names(const fields *f, const char *key, scene_list list);

@@ -30,8 +30,8 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-/* Returns the number of the active loads: 0 without load cases, otherwise that of the combination
- * or load case. Combinations are numbered first, from 1. */
+/* Returns the one-based index of the active combination or load case; 0: there are no load cases.
+ * Combinations come first. */
 static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)

@@ -7,7 +7,8 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Moving vectors of the consistent mass at the quadrature points. */
+/* Vectors from which the consistent mass is integrated, at each quadrature point: the position and
+ * the rotated section axes, as functions of the nodal coordinates. */
 
 enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* PSI: warping amplitude */

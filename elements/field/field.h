@@ -1,6 +1,6 @@
 /* Displacements between the nodes of an element, for loads and masses along the element. The field
- * is the exact displacement field of the uniform straight beam without loads, with the shear and
- * non-uniform torsion of its section and the active physics.
+ * is the exact displacement field of a uniform straight beam with loads only at its ends, including
+ * the shear and the non-uniform torsion of its section if these physics are active.
  *
  * With two nodes, the field is the linear interpolation lin() between p and q plus functionals of
  * the deformation modes e of J Eq. 7 (beamw/modes.h) along m_k, the mean of the unit vectors n_k of
@@ -9,8 +9,8 @@
  *   n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on.
  * e refers to the straight element. The initial value of e describes the shape of a curved element.
  * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). With more
- * nodes, r and n_k are the polynomials through the n nodes at x_k, and r has an additional term,
- * whose derivative is the part of l n_x of the highest degree: (l/n) prod (x - x_j) sum_k
+ * nodes, r and n_k are the polynomials through the n nodes at x_k. r then has an additional term,
+ * whose derivative is the term of the highest degree in l n_x: (l/n) prod (x - x_j) sum_k
  * n_x^k/prod_(j != k) (x_k - x_j). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
@@ -46,7 +46,7 @@ void field_at(const displacement_field *, double x, field_rows *);
 void field_warping_at(const displacement_field *, double x, double psi[FIELD_MODES]);
 /* Returns the section of the request with the shear flexibility of the active physics. */
 section field_section(const element_request *);
-/* Adds size times the rows at a point to `out`. */
+/* Adds the rows at a point, multiplied by `size`, to `out`. */
 void field_gather(double size, const field_rows *at, field_rows *out);
 
 enum { FIELD_MOST_POINTS = BEAMW_TWIST_MAX_POINTS };
@@ -67,8 +67,8 @@ typedef struct field_load {
 /* Adds the generalised forces of the loads on the coordinates of the nodes to forces[7 nodes].
  * Subtracts the derivative of these forces in the exponential chart from K[7 nodes x 7 nodes],
  * which may be NULL. The derivative is symmetric for forces in global axes, which have a potential.
- * rows[count] belong to the points where the loads act. For loads on the line without an arm, the
- * rows may be integrals. */
+ * rows[count] are those of the points where the loads act; for loads on the line without an arm,
+ * they may be integrals. */
 void field_add_loads(const displacement_field *, const node_state x[], int count,
                      const field_rows rows[], const field_load load[], double forces[], double K[]);
 
@@ -84,7 +84,7 @@ typedef struct field_mass {
 } field_mass;
 
 /* Orders of convergence of frequencies without prestress, for two-node elements whose stiffness is
- * exact without loads. */
+ * exact if loads act only at the nodes. */
 #define FIELD_MASS_ORDER ((element_order){4, 8})
 
 void field_mass_prepare(const element_request *, int nodes, field_mass *);
@@ -101,9 +101,10 @@ enum { FIELD_INNER = 2 * NODE_COORDINATES };
  * twice the complementary energy
  *   min over r: int s . C s dx, s = s_p v + s_r r,
  * where the resultants s_p are in equilibrium with these inertia forces, and s_r are due only to
- * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. Its unit is
- * kg s^2, multiplied by m for each rotation. B is zero for more than two nodes, for matrices with
- * off-diagonal entries, if EA, EIy, EIz or GIt is zero, and if the equations for s_r are singular.
+ * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. The unit of
+ * an entry is kg s^2, multiplied by m once if its row and once if its column is a rotation. B is
+ * zero for more than two nodes, for matrices with off-diagonal entries, if EA, EIy, EIz or GIt is
+ * zero, and if the equations for s_r are singular.
  */
 void field_inner(const element_request *, const displacement_field *,
                  double B[FIELD_INNER * FIELD_INNER]);

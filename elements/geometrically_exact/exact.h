@@ -78,9 +78,9 @@ typedef struct exact_strain_line {
     double N[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES],
         dN[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES]; /* dN: derivatives with respect to x/l0 */
     double initial[EXACT_STRAIN_MAX_POINTS]
-                  [3];                       /* R^T r' minus `rest`, in the stress-free element */
-    double rest[EXACT_STRAIN_MAX_POINTS][6]; /* R^T r' and the rotation measure on the arc without
-                                                initial strain, dimensionless */
+                  [3]; /* R^T r' minus `rest`, in the stress-free element */
+    /* dimensionless R^T r' and rotation measure on the arc without initial strain */
+    double rest[EXACT_STRAIN_MAX_POINTS][6];
 } exact_strain_line;
 
 /* Prepares Gauss points between evenly spaced nodes, for constant initial curvature [1/m] and

@@ -262,7 +262,8 @@ static void add_twist(double mass, const node_state *x, int at, int n, inertia_o
             out->M[(at + 3 + i) * n + at + 3 + k] += mass * x->R[3 * i] * x->R[3 * k];
 }
 
-/* Adds the masses at r + R vector[0] and on the other vectors, rotated by R. */
+/* Adds the inertia of the masses at r + R vector[0], and of those on the other vectors, which R
+ * rotates. */
 static void add_vectors(const lumped_mass *l, double share, const node_state *x,
                         const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {

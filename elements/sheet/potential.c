@@ -169,8 +169,8 @@ static void add_torsion(const element_request *r,
     out->P0[ONE][WP] = out->P0[ONE][WQ] = -kx * EIw / L * (integral.same + integral.other);
 }
 
-/* Adds the energy of N Eq. 34 for W - px/L. If amplitudes are requested although Iw = 0, the energy
- * makes them Wp = Wq = px/L. */
+/* Adds the energy of N Eq. 34 for W - px/L to the sums. The minimum of this energy is at Wp = Wq =
+ * px/L, so that warping amplitudes that are requested although Iw = 0 are determined. */
 static void add_idle_amplitudes(const element_request *r, sums *out)
 {
     const double L = r->length, k = r->section->shear_modulus * r->section->It * L / 30;

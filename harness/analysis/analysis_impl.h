@@ -50,13 +50,13 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Returns the number of modes that an analysis must find for the imperfections that use it,
- * including two more modes that reveal equal modes; 0: no imperfection uses the analysis. Only
- * buckling modes with positive critical factors are counted. */
+ * including two more modes that reveal repeated eigenvalues; 0: no imperfection uses the analysis.
+ * Only buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
- * amplitude. REFUSED: a mode does not exist, is one of several equal modes between which its
- * direction does not choose, shifts no member, or is perpendicular to its direction. If the
- * analysis of a mode failed: the status of this analysis. */
+ * amplitude. REFUSED: a mode does not exist, belongs to a repeated eigenvalue without a direction
+ * that selects one mode, shifts no member, or is perpendicular to its direction. If the analysis
+ * that computes a mode failed, returns its status. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
@@ -121,8 +121,9 @@ static const double unsymmetric_same = 1e-6;
 
 status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
 void unsymmetric_free(unsymmetric_result *);
-/* Improves a pole *s of K, M and C (of[3], same pattern) and its mode[n], which is real. *error:
- * relative to |s|; INFINITY: no convergence, or too many coordinates. */
+/* Improves a pole *s of K, M and C (of[3], with the same pattern) and its real mode[n]. Sets *error
+ * to the error relative to |s|, or to INFINITY if the iteration does not converge or there are too
+ * many coordinates. */
 status refine_pole(const sparse of[], double complex *s, double mode[], double *error, fault *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
@@ -155,22 +156,23 @@ const char *flutter_damping(const model *, int damped);
 /* Returns the kind of instability of the mode with the largest growth rate, and sets *mode to its
  * index. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
-/* Computes the squares of the first `most` frequencies, in ascending order; negative: divergence.
- * Without mass, or with damping, computes |s|^2. Returns their number. */
+/* Computes the squares of the first `most` frequencies, in ascending order, which are negative for
+ * divergence. Without mass, or with damping, computes |s|^2 instead. Returns the number of
+ * values. */
 int flutter_squares(const flutter_system *, const unsymmetric_result *, int most, double square[]);
 /* Returns the kind in words, such as "flutter, undamped", "divergence" or "flutter, growth with
  * damping". */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
-/* The smallest path parameter at which stability is lost. The search starts at path 0. The caller
- * frees mode[free]. */
+/* Smallest path parameter, counted from path 0, at which stability is lost. The caller frees
+ * mode[free]. */
 typedef struct flutter_point {
     double path, error, frequency; /* error: relative to the path parameter; frequency: in rad/s */
     const char *what;
     int massless;
     double *mode;
 } flutter_point;
-/* Advances from the current path parameter to `target`, like static_walk. */
+/* Function that advances from the current path parameter to `target`, like static_walk. */
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
@@ -330,8 +332,8 @@ typedef struct other_branch {
 } other_branch;
 
 /* Stores the critical points between `here` and `next` as events (continuation_critical.c). goal:
- * goal with which the step was found. *jump: 1 if the step led to another branch. The number of
- * negative pivots then changes without a critical point. */
+ * goal with which the step was found. Sets *jump to 1 if the step led to another branch, so that
+ * the number of negative pivots changes without a critical point. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested, sets *hidden to 1 if an indicator of a critical point (the sign
  * of the rate, or the number of negative pivots) changes and changes back within the step. */
@@ -344,8 +346,8 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* Returns 1, with the reason in r, if the quantity needs a part of a motion that only an earlier
- * run has computed. */
+/* Returns 1 and stores the reason in r if the quantity needs a part of a motion that only an
+ * earlier run has computed. */
 int extract_continued(const analysis_context *, const scene_quantity *, quantity_result *r);
 
 /* Sets the spectrum of the quantity from `count` values in the unit of the quantity, at equal time
@@ -365,12 +367,13 @@ int extract_path_needs(const analysis_context *, int analysis, int stations, con
  * are not counted. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
 
-/* Checks if stability is lost and regained within a step of a static path. The state is examined
- * after every sixth of the step, so a loss over a fifth of the step is noticed. */
+/* Checks whether stability is lost and regained within a step of a static path. The state is
+ * examined after every sixth of the step, so a loss over a fifth of the step is noticed. */
 
-/* Examines the step from n->backup to n->state. *found: a path value within the step at which
- * stability differs from that of both ends; INFINITY: none, or unknown. If the pivots do not decide
- * the stability at the end of the step, stores it in the record. The work is not counted. */
+/* Examines the step from n->backup to n->state. Sets *found to a path parameter within the step at
+ * which stability differs from that at both ends, or to INFINITY if none was found. If the pivots
+ * do not decide the stability at the end of the step, stores it in the record. The work is not
+ * counted. */
 status within_step(flutter_check *, const newton_run *n, step_record *, double *found, fault *);
 
 /* Small motions and stability about a loaded, deformed state: the last state of the static path
@@ -455,7 +458,7 @@ void loops_release(sparse closed[]);
 
 /* Returns entry k of the dynamic stiffness D at the circular frequency w. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
-/* Computes K, M, C and B. whole 1: including the driven coordinates. */
+/* Computes K, M, C and B; if `whole` is 1, including the prescribed coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
 status harmonic_pattern(vibration *, fault *);
 status harmonic_matrix(vibration *, fault *);
@@ -490,7 +493,7 @@ int harmonic_shapes(vibration *, const scene_response *, double out[]);
 /* Extremes of amplitudes, real parts and imaginary parts between the frequencies of the analysis
  * (harmonic_extremes.c). Phases are excluded, because they are periodic. */
 
-/* Computes a quantity at a frequency. The search maximises sign * value. */
+/* Function that computes a quantity at a frequency. The search maximises sign * value. */
 typedef status harmonic_value(vibration *, int quantity, double sign, double hertz, outcome_peak *,
                               fault *);
 status harmonic_extremes_refine(vibration *, harmonic_value *, outcome_harmonic *, fault *);
@@ -556,11 +559,11 @@ void harmonic_modes_carried(const vibration *, int driven, double out[]);
 /* Adds the static shapes due to the forces f[count x free] of inputs and outputs, and computes the
  * projected matrices. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
-/* Factors D at a circular frequency. SINGULAR: as in a direct solution. NOT_CONVERGED: there are
- * too few modes for an error bound. */
+/* Factors D at a circular frequency. SINGULAR: the frequency is at an undamped resonance.
+ * NOT_CONVERGED: there are too few modes for an error bound. */
 status harmonic_modes_factor(vibration *, double w, fault *);
-/* Solves for x[free], which contains the forces on entry and the solution on return. f: receives
- * the residual of the forces, unless all modes are used. */
+/* Solves for x[free], which contains the forces on entry and the solution on return. Sets f to the
+ * residual of the forces, unless all modes are used. */
 void harmonic_modes_solve(vibration *, double complex f[], double complex x[]);
 /* Returns a bound of |o^T (x - D^-1 f)| from the residuals of the solutions for f and o; 0: all
  * modes are used. */
@@ -574,13 +577,14 @@ status harmonic_modes_few(const vibration *, fault *);
 /* Call this function after harmonic_modes_project. */
 status harmonic_closed_alloc(vibration *, fault *);
 /* Factors the matrix of the modes and loops. Call this function after harmonic_modes_factor.
- * SINGULAR: as in a direct solution. NOT_CONVERGED: there is no error bound. */
+ * SINGULAR: the frequency is at an undamped resonance. NOT_CONVERGED: there is no error bound. */
 status harmonic_closed_factor(vibration *, fault *);
 /* Solves for the forces f[free]. x[all + loops] contains the right-hand sides b of the loops on
  * entry; it contains the solution and the factors of the loops on return. */
 void harmonic_closed_solve(vibration *, const double complex f[], double complex x[]);
 /* Like harmonic_modes_bound, for closed loops with the factors u[loops]. output[all + loops]:
- * residual of the output, and its coefficients of u. dual[free]: its solution without loops. */
+ * residual of the output, and coefficients of u in the output. dual[free]: dual solution of the
+ * output without loops. */
 double harmonic_closed_bound(vibration *, const double complex left_of_f[],
                              const double complex u[], const double complex output[],
                              const double complex dual[]);
@@ -592,9 +596,9 @@ status harmonic_begin(vibration *, fault *);
  * even after a failure. */
 status harmonic_system(analysis_context *, int analysis, vibration *out, fault *);
 void harmonic_release(vibration *);
-/* Repeats the analysis without the mass inside elements. *error: largest difference of the
- * responses, relative to the largest value of each curve; it must be 0 on entry. *quantity: index
- * of the quantity with this difference. */
+/* Repeats the analysis without the mass inside elements. Sets *error, which must be 0 on entry, to
+ * the largest difference of the responses relative to the largest value of each curve, and
+ * *quantity to the index of the quantity with this difference. */
 status harmonic_inside(analysis_context *, int analysis, double *error, int *quantity, fault *);
 /* Checks the prescribed motion of an input. REFUSED: the motion is a component of a rotation
  * vector. */
@@ -609,19 +613,18 @@ status harmonic_reacting(const vibration *, const scene_response *, int *out, fa
 /* Second-order models with the inputs and outputs of the scene (second_order.c). */
 
 status second_order_list(const scene *, system_matrices *, fault *);
-/* Stores the matrices. v: matrices of all coordinates, the state, and the modes with damping
- * ratios. G: gyroscopic matrix, or NULL. */
+/* Stores the matrices. v contains the matrices of all coordinates, the state, and the modes with
+ * damping ratios. G: gyroscopic matrix, or NULL. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
 /* Stores the reduced model and its errors (second_order_reduced.c). */
 status second_order_keep_reduced(const vibration *, const system_matrices *,
                                  const second_order *whole, reduced_model *, fault *);
-/* Lists the nonzero entries by columns. This and the next two functions are in
- * second_order_store.c. */
+/* Lists the nonzero entries column by column. */
 status second_order_triplets(int rows, int columns, const double value[], triplets *, fault *);
 /* Stores the model with its first `outputs` outputs. */
 status second_order_take(const second_order *, int outputs, linear_model *, fault *);
-/* Stores the state space. reduced 1: m is a reduced model, which error messages mention. */
+/* Stores the state-space form. reduced: 1 if the model is a reduced one, which messages state. */
 status second_order_state_space(const vibration *, const system_matrices *, const second_order *,
                                 int reduced, linear_model *, fault *);
 
@@ -643,8 +646,8 @@ void rotation_evaluate_stations(analysis_context *, int analysis, const analysis
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Advances from the current path parameter to `target`. Steps are halved if Newton's method fails,
- * and doubled if it converges easily. *increment: the first step on entry, the next step on
- * return. */
+ * and doubled if it converges easily. *increment is the size of the first step on entry, and that
+ * of the next step on return. */
 status static_walk(newton_run *, double target, double *increment, fault *);
 
 #endif

@@ -232,8 +232,8 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Returns 1 if the quantity is evaluated at the station: at the requested station, otherwise at the
- * last one. */
+/* Returns 1 if the quantity is evaluated at this station, which is the requested one, or the last
+ * one if none is requested. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)

@@ -18,9 +18,9 @@ against_times against_evaluate(int pairs, const double a[], const double b[]);
 enum { AXIS_MOST_VALUES = 1000001 };
 
 /* Reads a varied parameter. Formats: "NAME=A..B/N" (N equal parts, ends included),
- * "NAME=A..B/N:log" (equal ratios), "NAME=A..B" or "NAME=A..B:log" (a design supplies the points),
- * or "NAME=A,B,C" (numbers, or words of a choice). The parameter must allow all these values.
- * REFUSED: the message names the invalid part and the remedy. */
+ * "NAME=A..B/N:log" (logarithmic intervals), "NAME=A..B" or "NAME=A..B:log" (a design supplies the
+ * points), or "NAME=A,B,C" (numbers, or words of a choice). The parameter must allow all these
+ * values. REFUSED: the message names the invalid part and the remedy. */
 status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f);
 void axis_free(sweep_axis *);
 /* Returns value number i, counted from 0. */

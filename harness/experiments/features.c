@@ -430,8 +430,8 @@ static void moments(const test_element *s, check_result *one)
     test_element_free(&line);
 }
 
-/* Compares the mass matrix of a straight undeformed element with that of the field which is exact
- * without loads. */
+/* Compares the mass matrix of a straight undeformed element with that of the field that is exact if
+ * loads act only at the nodes. */
 static void same_as_field(const test_element *s, check_result *one)
 {
     const int n = s->coordinates;

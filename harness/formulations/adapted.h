@@ -43,7 +43,7 @@ static inline int adapted_owns(int count, const element_data *const data[],
 
 /* Computes the requested strains e, Jacobian J and second derivatives H with the functions of the
  * given type. J and H that it does not compute are obtained by finite differences (differences.c).
- * They are NaN if the history that the type requires is NULL. */
+ * They are NaN if the type requires a history and the history is NULL. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
 /* Like differences_strain, for many elements. The perturbed states are passed to strain_many in
  * groups. Requires strain_many. */
@@ -81,9 +81,9 @@ status absolute_stress(const element_data *d, const double e[], const double inn
 /* Like absolute_stress, for many elements. Requires force_many. */
 void absolute_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
-/* The history of the completed type starts with the values of the given type. Then follow, for each
- * node, its initial position (3), q0 (4), and q in the last accepted state (4), which determines
- * the sign of q. */
+/* The history of the completed type starts with the values of the given type. For each node, it
+ * then contains the initial position (3), q0 (4), and q in the last accepted state (4), which
+ * determines the sign of q. */
 void absolute_begin(const element_data *d, const node_state x[], double history[]);
 void absolute_commit(const element_data *d, const node_state x[], double history[]);
 

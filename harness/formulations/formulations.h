@@ -11,7 +11,7 @@
 #include "elements/shared/status.h"
 
 /* Sets *out to the complete interface of the same element, or to `given` if nothing is missing.
- * REFUSED: the members of the type contradict each other, or a number exceeds its limit. */
+ * REFUSED: members of the type are inconsistent, or a number exceeds its limit. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
@@ -19,8 +19,8 @@ status adapters_complete(const element_type *given, const double options[], elem
 int adapters_history(const element_type *given, const double options[]);
 enum { ADAPTERS_MOST_HISTORY = ELEMENT_MAX_HISTORY + 11 * 7 };
 
-/* Returns the relative error of the stiffness due to finite differences, as measured on beams
- * (test/adapters_test.c); 0: the type needs no finite differences. */
+/* Returns the relative error of the stiffness due to finite differences, which was measured on
+ * beams (test/adapters_test.c); 0: the type needs no finite differences. */
 double adapters_error(const element_type *given);
 
 /* Returns a list of everything that is computed by finite differences for the type; "": nothing. */
@@ -41,7 +41,7 @@ enum { ASSIGNMENT_SHOWN = 256 };
  * shell where necessary. */
 void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
 
-/* Writes the words " in UNIT, without the unit", or "" for a number without a unit. */
+/* Writes " in UNIT, without the unit" for a parameter with a unit, and "" for one without. */
 enum { PARAMETER_UNIT_WORDS = 80 };
 void parameter_unit_words(const parameter_type *, char out[PARAMETER_UNIT_WORDS]);
 
@@ -62,13 +62,14 @@ status assignment_parse(const assignment_list *, const char *text, double value[
  * defaults are written, in the order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
-/* Reads the name of a choice, which gives its index, or, for a parameter without choices, a number,
- * which may be outside the range. Returns 0 if the text is neither. */
+/* Sets *value to the index of the choice that the text names or, for a parameter without choices,
+ * to the number in the text, which may be outside the range. Returns 0 if the text is neither. */
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when it is read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
 
-/* returns NULL for an unknown name; the message gives the most similar known name */
+/* Returns the case with this name. Returns NULL for an unknown name; the message then gives the
+ * most similar known name. */
 const case_type *case_find(const char *name, fault *f);
 
 /* Moves states of nodes by increments. The derivatives of element.h refer to such increments.
@@ -80,8 +81,8 @@ void chart_move(const node_state x[], int nodes, int scalars, const double step[
                 node_state out[]);
 
 /* Returns the size of a small step of coordinate c [m, rad, rad/m, 1] of an element with this
- * number of nodes. The scale is such that the strains due to the step do not depend on the length
- * of the beam. */
+ * number of nodes. Steps are scaled such that the strains they cause do not depend on the length of
+ * the beam. */
 double chart_unit(int c, int nodes, double length);
 
 /* Computes dexp(psi), row-major, in d(exp(psi)) exp(-psi) = dexp(psi) dpsi. dexp(psi) dpsi is the
@@ -134,8 +135,8 @@ status formulation_parse(const char *text, formulation *out, fault *f);
 /* Finds the type for "name" or "name:key=value,..."; NULL: none. */
 const element_type *formulation_find(const char *key);
 void formulation_default(const element_type *type, formulation *out);
-/* Makes the default formulation with choice `choice` of option `index`. Returns 0 if there is no
- * such choice, or if it is the default. */
+/* Makes the default formulation with choice `choice` of option `index`. Returns 0 if this choice
+ * does not exist or is the default. */
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
 /* Returns the features that options with other values than the defaults affect (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
@@ -158,8 +159,8 @@ int formulations_is_new(const element_type *t);
 /* Marks a formulation as accepted (reference/accepted.csv). An unknown name is ignored. */
 void formulations_accept(const char *name);
 /* Adds a type. REFUSED: its name is in use or is a word of the command line, adapters_complete
- * rejects it, or FORMULATIONS_MOST_LOADED types are loaded. The caller keeps ownership of the type
- * and of `from`, the value of --element (NULL: none). */
+ * rejects it, or FORMULATIONS_MOST_LOADED types are already loaded. The caller keeps ownership of
+ * the type and of `from`, the value of --element (NULL: none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type; NULL: the type was not loaded. */
 const char *formulations_element(const element_type *t);
@@ -171,8 +172,8 @@ int process_serves(const element_type *);
 /* Sets the time limit [s] of an answer, which is initially 120; 0: no limit. */
 void process_limit(int seconds);
 
-/* largest error of a scaled damping matrix: the difference of opposite entries, or the size of a
- * negative eigenvalue */
+/* Largest accepted error of a scaled damping matrix: the difference of opposite entries, or the
+ * magnitude of a negative eigenvalue. */
 #define DAMPING_ROUNDING 1e-10
 
 /* Computes B: the damping matrix V [n x n], scaled to diagonal entries of 1 or -1, so that large
@@ -192,9 +193,10 @@ int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
 /* Sets a parameter. assignment: "NAME=VALUE". */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
-/* Reads "NAME=VALUE;NAME=VALUE". Other parameters are set to their defaults. A value "*" means the
- * default and is marked in any[]; "*" alone marks all parameters of the original source. any NULL:
- * nothing is marked, and only "*" alone is allowed. REFUSED: assignment_parse rejects the text. */
+/* Sets the parameters in "NAME=VALUE;NAME=VALUE", and all other parameters to their defaults. A
+ * value "*" means the default and is marked in any[]; "*" alone marks all parameters of the
+ * original source. If `any` is NULL, nothing is marked, and only "*" alone is allowed. REFUSED:
+ * assignment_parse rejects the text. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* Writes the parameters in the form that parameters_parse reads. Default values are omitted. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
@@ -247,8 +249,8 @@ typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;
 
-/* Starts the record with the words that match a case or a formulation. expression NULL: selects
- * everything. REFUSED: the expression is malformed. */
+/* Starts the record with the words that match a case or a formulation. An expression that is NULL
+ * selects everything. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
 /* Returns 1 if a word has matched no name; word: the first such word. */
@@ -268,7 +270,7 @@ enum { STENCIL_MOST = ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES };
 static const double stencil_first_step = 2e-3, stencil_second_step = 1e-3;
 
 /* Computes values[count] with argument i moved by si units and argument j by sj units (if i == j,
- * by si + sj). Returns 0; another number: the function has no value for these arguments. */
+ * by si + sj). Returns 0, or another number if the function has no value for these arguments. */
 typedef int stencil_function(const void *context, int i, double si, int j, double sj,
                              double values[]);
 
@@ -283,9 +285,10 @@ int stencil_second(stencil_function *f, const void *context, int count, int i, i
 
 enum { WORDS_MOST = 63 };
 
-/* Splits the command. *words: NULL-terminated; one call of free() releases the list and its words.
- * Blanks separate words; the quotation marks ' and " protect blanks. REFUSED: the command is
- * invalid. FAULT: out of memory. */
+/* Splits the command. Sets *words to a NULL-terminated list; one call of free() releases the list
+ * and its words. Blanks separate words; the quotation marks ' and " protect blanks. REFUSED: no
+ * command is given, a quotation mark is not closed, or there are more than WORDS_MOST words. FAULT:
+ * out of memory. */
 status words_split(const char *command, char ***words, fault *f);
 
 /* Prints a word for a shell, with quotation marks if necessary. */

@@ -38,8 +38,8 @@ typedef struct handshake {
     element_type type; /* type with data members only, without functions */
     int whole;         /* 1: the process computes the energy, force or tangent of whole elements;
                           0: strains and stresses */
-    /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
-     * analysis */
+    /* 1: the process computes the inertia of elements. If type.spreads is set, this inertia also
+     * applies to transient analyses */
     int inertia;
     int damping;
     int line; /* 1: the process computes the motion of sections between the nodes */
@@ -49,7 +49,7 @@ typedef struct handshake {
 } handshake;
 
 /* Reads the first line of a process. program_name: start of every error message. After an error,
- * nothing needs to be freed. The owner sets type.constants. REFUSED: the line does not follow the
+ * nothing needs to be freed. The owner sets type.constants. REFUSED: the line violates the
  * protocol. FAULT: out of memory. */
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
                       fault *f);
@@ -98,14 +98,15 @@ int channel_runs(const channel *);
  * and returns their address; NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
-/* Sends the request and waits for the answer. *body: the answer of `least` or `most` bytes
- * (*count), valid until the next request. Returns the status in the answer, with its message if it
- * is not OK. FAULT: out of memory, or the process has ended, is too slow, or violates the protocol;
- * in these cases except the first, the channel is broken, and `trouble` gives the reason. */
+/* Sends the request and waits for the answer. Sets *body to the answer, which has `least` or `most`
+ * bytes (*count) and is valid until the next request. Returns the status in the answer, with its
+ * message if it is not OK. FAULT: out of memory, or the process has ended, exceeds the time limit,
+ * or violates the protocol. In the last three cases, the channel is broken, and `trouble` gives the
+ * reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Stores the reason for REFUSED or FAULT until it is reported. A reason that is not yet reported is
- * kept instead. */
+/* Stores the reason for REFUSED or FAULT until it is reported. A stored reason that has not been
+ * reported is not replaced. */
 void channel_note(channel *, status outcome, const fault *why);
 status channel_call(channel *, const char *name, fault *);
 void channel_end(channel *);
@@ -134,8 +135,8 @@ typedef void gather_evaluate(void *context, gather *, int first, int count);
 enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation */
 
 /* Calls element(context, g, i) twice for each of `count` elements, in groups of elements, with
- * calls of `evaluate` for their states in between. If memory is short, g is NULL in the second or
- * only call for an element. */
+ * calls of `evaluate` for their states in between. If an allocation fails, g is NULL in the second
+ * or only call for an element. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
 /* Stores the state x[nodes] and returns NULL, or, if g->answered is 1, returns the answer [size]
@@ -143,12 +144,12 @@ void gather_run(int count, int nodes, size_t size, gather_element *, gather_eval
 const double *gather_next(gather *, const element_data *own, const node_state x[],
                           const double *history);
 
-/* Computes the forces with the functions of the type. together: the gathered answers are returned,
- * or zeros while states are gathered; NULL: the functions are called. */
+/* Computes the forces with the functions of the type. If `together` is not NULL, returns the
+ * gathered answers, or zeros while states are gathered. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
 size_t forces_size(const element_data *d);
-/* Computes the answers of states first .. first + count - 1, with everything that the type computes
- * (but no energy if there is a history). Requires force_many. */
+/* Computes the answers of states first .. first + count - 1, including all outputs that the type
+ * computes, without the energy if there is a history. Requires force_many. */
 void forces_evaluate(const element_data *, gather *, int first, int count);
 
 /* Strains of an element that is defined by its force or energy. The strains are the positions of
@@ -160,7 +161,7 @@ void forces_evaluate(const element_data *, gather *, int first, int count);
 
 enum { PLACES_MOST = ELEMENT_MAX_COORDINATES - 6 };
 
-/* Returns the function that returns the number of strains (element_type.strains). */
+/* Returns the function for element_type.strains, which returns the number of strains. */
 typedef int places_count(const double options[]);
 places_count *places_strains(int nodes, int scalars);
 

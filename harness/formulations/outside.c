@@ -8,8 +8,8 @@
 #include "harness/formulations/process_impl.h"
 
 /* Loads the type that the command describes. The type and its process exist until this process
- * ends. REFUSED: PROCESS_MOST types are loaded, the machine is big-endian, the command cannot be
- * executed, or the first line of its output is missing or does not follow the protocol
+ * ends. REFUSED: PROCESS_MOST types are already loaded, the machine is big-endian, the command
+ * cannot be executed, or the first line of its output is missing or does not follow the protocol
  * (protocol.md). FAULT: out of memory, or no pipe or process can be created. */
 static status process_load(const char *command, const element_type **out, fault *f);
 

@@ -91,8 +91,7 @@ static void direction_rows(double l, const double to[3], double Q[9])
     }
 }
 
-/* Computes the rows of J for another node: the derivatives of its strains of position and
- * rotation. */
+/* Computes the rows of J for node k > 0: the derivatives of its position and rotation strains. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
     const int n = adapted_coordinates(d);

@@ -43,9 +43,9 @@ typedef struct model_request {
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
-/* The initial shape due to the imperfections of a scene: a copy of the scene in which nodes are
- * shifted, and bodies and offsets are rotated with them, and the shifts of members between
- * nodes. */
+/* The initial shape due to the imperfections of a scene. It consists of a copy of the scene, in
+ * which nodes are shifted and bodies and offsets rotate with them, and of the shifts of members
+ * between their nodes. */
 typedef struct model_imperfect model_imperfect;
 /* Creates the initial shape. x[free + driven]: sum of the modes of the perfect model. */
 status model_imperfect_alloc(const model *perfect, const double x[], model_imperfect **, fault *);
@@ -97,9 +97,9 @@ typedef struct model_state model_state;
 const char *model_formulation(const model *);
 const double *model_options(const model *);
 unsigned model_leaves(const model *);
-/* Fills the shape of a mode x, for identification and pictures: displacement (3), rotation (3) and
- * warping of every vertex. model_member_vertices gives the order of vertices along a member.
- * Returns the number of vertices. u: [vertices x 7]; position: [vertices x 3], undeformed. */
+/* Computes the shape of a mode x: the displacement (3), rotation (3) and warping of every vertex,
+ * u[vertices x 7], and the undeformed position[vertices x 3]. Returns the number of vertices.
+ * model_member_vertices gives their order along a member. */
 int model_shape(const model *, const double x[], double *u, double *position);
 int model_member_vertices(const model *, int member,
                           /* vertices of a member, in order; NULL: returns only their number */
@@ -115,9 +115,9 @@ typedef struct assemble_patterns assemble_patterns;
 status assemble_patterns_alloc(assemble_patterns **, fault *);
 void assemble_patterns_free(assemble_patterns *);
 
-/* Returns a symmetric pattern for the undeformed state. with_driven 0: only the unknowns; 1: all
- * coordinates. The pattern is created in the first call and stored. sparse_alloc_like creates
- * matrices with this pattern. */
+/* Returns a symmetric pattern for the undeformed state. with_driven 0: the pattern contains only
+ * the unknowns; 1: it contains all coordinates. The pattern is created in the first call and
+ * stored. sparse_alloc_like creates matrices with this pattern. */
 status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
                         fault *f);
 /* Sets *out to the pattern of the tangent in any state. Both triangles are stored if tangents may
@@ -159,14 +159,14 @@ void centreline_fill(const model *m, const model_state *s, centreline_point out[
 /* Computes the positions [m] of the nodes of the scene: out[nodes x 3]. */
 void centreline_nodes(const model *m, const model_state *s, double out[]);
 /* Creates a state: `from` moved by `scale` times the increments x[free + driven]. sigma[elements x
- * strains]: stresses of the state; NULL: the stresses of `from`. scale 0: selects a scale for which
- * the displacement is visible (at most a tenth of the length of the longest member, and half a
- * radian). *scale: the scale that was used. */
+ * strains]: stresses of the state; NULL: the stresses of `from`. If *scale is 0, selects a scale
+ * for which the displacement is visible (at most a tenth of the length of the longest member, and
+ * half a radian), and stores it in *scale. */
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f);
 
-/* How the members of a scene are divided into elements. Loads that begin, end or act between the
- * ends of a member divide it into pieces. Each piece has the requested number of elements of equal
+/* Division of the members of a scene into elements. Loads that begin, end or act between the ends
+ * of a member divide it into pieces. Each piece has the requested number of elements of equal
  * length. */
 
 typedef struct division {
@@ -180,8 +180,8 @@ typedef struct division {
 /* Smallest length of a piece, relative to its member. */
 #define DIVISION_LEAST 1e-3
 
-/* Returns the position along the member of a point x in [0, 1] of an element. The second function
- * returns the inverse. */
+/* division_place returns the position along the member of a point x in [0, 1] of an element.
+ * division_inside returns x for a position. */
 double division_place(const division *, int member, int number, double x);
 double division_inside(const division *, int member, int number, double place);
 /* Returns the element at a position along a member, and sets *x to the point in the element.
@@ -219,7 +219,7 @@ typedef struct mesh_vertex {
     int vector_driver[3]; /* drivers of the prescribed rotation vector; NONE: not prescribed */
 } mesh_vertex;
 
-/* End release of a member (see scene_release). */
+/* A released end of a member (see scene_release). */
 typedef struct mesh_release {
     int node; /* node of the scene from which the end is released */
     int turns, slides;
@@ -240,10 +240,11 @@ typedef struct mesh_element {
     int kind, member;
     int nodes;
     int vertex[ELEMENT_MAX_NODES];
-    /* index of the warping amplitude; NONE: fixed at zero, or absent */
+    /* index of the warping amplitude; NONE: the amplitude is fixed at zero or does not exist */
     int warp[ELEMENT_MAX_NODES];
-    /* number of additional unknowns of a node (element_type.scalars), index among the warping
-     * amplitudes of the first that is not fixed, and those that are fixed at zero (bits) */
+    /* scalars: number of additional unknowns of a node (element_type.scalars); scalar: index, among
+     * the warping amplitudes, of the first unknown that is not fixed; held: bits of the unknowns
+     * that are fixed at zero */
     int scalars, scalar[ELEMENT_MAX_NODES];
     unsigned held[ELEMENT_MAX_NODES];
     /* share of the element's mass at each node if the mass is lumped (mesh.c) */
@@ -337,9 +338,9 @@ static inline const model_mesh *model_mesh_of(const model *m)
     return (const model_mesh *)m;
 }
 
-/* Return data of an element: its type and numbers. The numbers are those of nodes, coordinates of
- * the nodes (7 each, and the additional unknowns), strains, internal unknowns, and doubles that its
- * type stores in a linearisation. */
+/* Return the type of the elements, and the numbers of an element: nodes, coordinates of its nodes
+ * (7 each, and the additional unknowns), strains, internal unknowns, and doubles that its type
+ * stores in a linearisation. */
 static inline const element_type *model_type(const model *m)
 {
     return model_mesh_of(m)->type;
@@ -437,8 +438,8 @@ static inline int model_owns(const model *m, int vertex, int coordinate)
     }
     return owns;
 }
-/* Bodies that constraints join, in ascending order: the first body, and the next body (NONE: there
- * is no next body). */
+/* Return the bodies that constraints connect to a body, in ascending order: the first body, and the
+ * body after `vertex` (NONE: there is none). */
 static inline int model_first_joined(const model *m, int vertex)
 {
     const model_mesh *mesh = model_mesh_of(m);
@@ -464,8 +465,8 @@ static inline const mesh_element *model_element(const model *m, int element)
 {
     return &model_mesh_of(m)->element[element];
 }
-/* Returns the index of the first element of a member. member = number of members: the number of all
- * elements. */
+/* Returns the index of the first element of a member. If `member` is the number of members, returns
+ * the number of all elements. */
 static inline int model_first_element(const model *m, int member)
 {
     return model_mesh_of(m)->first_element[member];
@@ -516,9 +517,9 @@ static inline int model_first_release(const model *m)
     return model_mesh_of(m)->first_release;
 }
 /* Returns the only axis about which a node is fixed or prescribed. The support of such a node can
- * exert a moment about this axis at any rotation about the other two. NONE: there is no such axis,
- * or there are several; the rotation is a sequence or is prescribed as a vector; or another node
- * moves this node. */
+ * exert a moment about this axis at any rotation about the other two. Returns NONE if there is no
+ * such axis or more than one, if the rotation is a sequence or is prescribed as a vector, or if
+ * another node moves this node. */
 int coordinates_held_turn(const model *, int node);
 /* Return the number of warping amplitudes and additional unknowns, and the coordinate of one of
  * them. */
@@ -530,7 +531,7 @@ static inline int model_warp(const model *m, int warp)
 {
     return model_mesh_of(m)->warp[warp].coordinate;
 }
-/* Returns the length [m] that makes a change of a warping amplitude dimensionless; 1 for an
+/* Returns the length [m] that makes a change of a warping amplitude dimensionless. Returns 1 for an
  * additional unknown, which is dimensionless. */
 static inline double model_warp_length(const model *m, int warp)
 {
@@ -542,9 +543,10 @@ static inline int model_turns(const model *m)
     return model_mesh_of(m)->turns;
 }
 
-/* End of a slot of a linear_memory if elements include loads along them: 1 if this element does,
- * the rotation of its frame [3 x 14], and the changes of stresses [strains x 3] and of internal
- * unknowns [inner x 3] with this rotation. */
+/* Offsets in the last part of a slot of a linear_memory, which exists if elements include loads
+ * along them in their equilibrium. The part contains 1 if this element includes a load, the
+ * derivative of the rotation of its frame [3 x 14], and the derivatives of the stresses [strains x
+ * 3] and of the internal unknowns [inner x 3] with respect to this rotation. */
 enum { SLOT_TAKES, SLOT_TURN, SLOT_MIXED = SLOT_TURN + 3 * ELEMENT_ALONG_COORDINATES };
 static inline int slot_followed(const model *m)
 {
@@ -556,25 +558,25 @@ static inline int slot_along(const model *m)
 }
 
 /* Computes the internal minus the centrifugal force [7 nodes] in the rotating frame of the state,
- * and its tangent [7 nodes x 7 nodes], in coordinates of the model. rates: deformation rates of the
- * dashpots; NULL: the structure is at rest. */
+ * and its tangent [7 nodes x 7 nodes], in coordinates of the model. The rates are deformation rates
+ * of the dashpots; NULL: the structure is at rest. */
 void discrete_equations(const model *, const model_state *, const mesh_discrete *,
                         const element_rotating_frame *, const spring_rates *, double force[],
                         double K[]);
-/* Adds the inertia of the discrete elements to M and G (rotating_frame_inertia). G NULL: not
- * needed. */
+/* Adds the inertia of the discrete elements to M and G (rotating_frame_inertia). G may be NULL. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
-/* Add the two parts of the tangent (newton.h). The first function adds to y the product of the
- * material part and x[free + driven]. The second function adds the other part to `out`. */
+/* Add the two parts of the tangent (stiffness_parts in newton.h). discrete_material_product adds to
+ * y the product of the material part and x[free + driven]. discrete_geometric adds the geometric
+ * part to `out`. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
                         sparse *out);
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
-/* Functions for dashpots, in this order: deformations d[6 x springs] of all springs; their rates
- * for increments dx[free + driven] per unit time; dissipated power [W]; dashpot forces, added to
- * out[free + driven] or, on the frame of a node, to F[6]; damping matrix for small motions, added
- * to C. */
+/* Functions for dashpots. They compute the deformations d[6 x springs] of all springs, the rates of
+ * these deformations for the rates dx[free + driven] of the coordinates, and the dissipated power
+ * [W]. They add the forces of the dashpots to out[free + driven], or those on the frame of a node
+ * to F[6], and the damping matrix for small motions to C. */
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
@@ -587,9 +589,9 @@ void dashpots_node_force(const model *, const model_state *, const double rate[]
                          double F[6]);
 /* Adds the damping of all springs, and `more` [s] times their stiffness, to C. */
 void dashpots_matrix(const model *, const model_state *, double more, sparse *C);
-/* The first function computes the deformations of a spring and their derivatives J[6 x columns]
- * with respect to its coordinates. The second function computes, for the stresses of the dashpot,
- * force[columns] and the geometric stiffness K[columns x columns]. */
+/* dashpots_strains computes the deformations of a spring and their derivatives J[6 x columns] with
+ * respect to its coordinates. dashpots_stressed computes force[columns] and the geometric stiffness
+ * K[columns x columns] for the stresses of the dashpot. */
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
 void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
                        double force[], double K[]);
@@ -604,13 +606,13 @@ void discrete_node_force(const model *, const model_state *, const element_rotat
                          int node, double F[6]);
 
 /* Writes text such as "beam has 6 elements, 2 in each of 3 pieces, because loads begin, end or act
- * at 0.3, 0.5 of the length". A long list is truncated. elements 0: writes the text for any number
- * n. The text is "" if each member is a single piece. */
+ * at 0.3, 0.5 of the length". A long list is truncated. If `elements` is 0, writes the text for any
+ * number n. The text is "" if each member is a single piece. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
-/* Transform forces or matrices from element coordinates to coordinates of the model, in place. K:
- * [columns x columns]. force: internal forces, for the second derivatives. Arguments that are NULL
- * are skipped. */
+/* Transform forces, or a matrix K[columns x columns], from element coordinates to coordinates of
+ * the model, in place. eliminate_matrix needs the internal forces for second derivatives. Arguments
+ * that are NULL are skipped. */
 
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el,
                       double force[]); /* [columns] */
@@ -657,7 +659,8 @@ typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
     double k[3];           /* [1/m] torsion and two curvatures, in the axes of the triad */
-    /* [m] bow: deviation from the arc, in the axes of the arc: bow sin(half_waves pi s/length) */
+    /* [m] amplitude of the deviation from the arc, bow sin(half_waves pi s/length), in the axes of
+     * the arc */
     double bow[2];
     int half_waves;
 } member_arc;
@@ -672,23 +675,24 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 unsigned features_needed(const scene *);
 /* Returns the physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);
-/* Returns physics, not omitted, that the analyses of the scene need but that a section given by its
- * constants or matrices does not define. A constant that is given as zero is defined. */
+/* Returns the physics that the analyses of the scene need, that the scene does not omit, and that a
+ * section given by constants or matrices does not define. A constant that is given as zero is
+ * defined. */
 unsigned features_not_given(const scene *, int section);
 /* Returns 1 if a section of walls has a bimoment that causes torsion and the analyses depend on it.
- * No formulation models this effect. Returns 0 without stresses, in a plane, or if warping or the
- * Wagner torque is omitted. */
+ * No formulation models this effect. Returns 0 if no analysis includes stresses, if the scene is
+ * confined to a plane, or if warping or the Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
-/* Like features_needed. But if the type does not support the requested shear theory in stability,
- * its own theories replace the requested theory. */
+/* Like features_needed, but if the type does not support the requested shear theory in stability,
+ * the theories of the type replace it. */
 unsigned features_needed_of(const scene *, const element_type *);
-/* Returns the shear theory in stability that the type uses for this scene, a bit of shear_theory;
- * 0: there is no shear flexibility, or there are no stresses. */
+/* Returns the shear theory in stability that the type uses for this scene, as a bit of
+ * shear_theory; 0: there is no shear flexibility, or no analysis includes stresses. */
 unsigned features_theory(const scene *, const element_type *);
 /* Returns 1 if the scene has shear flexibility and an analysis that depends on the shear theory. */
 int features_sheared(const scene *);
-/* Returns the name of the theory, such as "Haringx", the text of the type for SHEAR_OWN, or "" for
- * 0. */
+/* Returns the name of the theory, such as "Haringx". Returns the text of the type for SHEAR_OWN,
+ * and "" for 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
 /* Returns the features on which a quantity depends. Inertia is included only for modal and harmonic
  * analyses and for rotating structures. */
@@ -712,7 +716,7 @@ double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
 /* Returns the frame of a node of the scene in a state: position [m] and unit quaternion. The
- * function is for tests in other folders, which have no access to the members of a state. */
+ * function is for tests in other folders, which cannot read the members of a state. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Returns the displacement [m] or rotation-vector component [rad] of a node of the scene relative
  * to the undeformed state. NaN: the vector has lost its direction at a full revolution. */
@@ -721,23 +725,23 @@ double kinematics_component(const model *, const model_state *, int node, int co
  * position [m], or relative rotation vector [rad]. */
 double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
-/* Returns the largest angle [rad] between the orientations of an element's nodes, and this element.
- * chords 1: also considers the angles between the chord of an element and the x axes of its ends.
- * Angles up to a full revolution are distinguished. */
+/* Returns the largest angle [rad] between the orientations of the nodes of an element, and sets
+ * *element_index to this element. If `chords` is 1, also considers the angles between the chord of
+ * an element and the x axes of its ends. Angles up to a full revolution are distinguished. */
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
-/* Returns the largest angle [rad], 0 to pi, between the first and the last node of an element about
- * its undeformed x axis, and this element. */
+/* Returns the largest angle [rad], from 0 to pi, between the first and the last node of an element
+ * about its undeformed x axis, and sets *element_index to this element. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
 /* Returns the largest rise of the arc of an undeformed element due to its curvature about z, in
- * radii of gyration, and this element. */
+ * radii of gyration, and sets *element_index to this element. */
 double kinematics_largest_rise(const model *, int *element_index);
 
 /* Returns the index of a coordinate of a node; -1: the coordinate is fixed or dependent. */
 int kinematics_coordinate(const model *, int node, int component);
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Computes the Jacobian T[6 x m] (row-major) of the six spatial increments of a vertex with respect
- * to the m coordinates on which it depends. index[m]: indices of these coordinates. State NULL:
- * undeformed. Returns m <= size; m is at most 6 for a node. */
+ * to the m coordinates on which it depends. index[m]: indices of these coordinates. If the state is
+ * NULL, it is the undeformed one. Returns m <= size; m is at most 6 for a node. */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 /* Computes the current vector [m] from the body of a vertex to the vertex. */
@@ -770,7 +774,8 @@ void kinematics_position(const model *m, const model_state *s, int vertex, doubl
 /* Computes the derivative of the position of a body moved by a diaphragm with respect to the first
  * angle of the body. */
 void kinematics_arm(const model *, const model_state *, int vertex, double moved[3]);
-/* Computes the displacement of the body if this angle increases by `more` from the state. */
+/* Computes the displacement of the body that results if the angle of kinematics_arm increases by
+ * `more` [rad] from the state. */
 void kinematics_swing(const model *, const model_state *, int vertex, double more, double by[3]);
 /* Computes the spatial axes b[angles][3] of the angles of a sequence in the current state. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
@@ -807,20 +812,20 @@ enum {
 };
 enum { OMIT_WORDS = 200, OMIT_BITS = 17 }; /* length of their names; number of bits */
 
-/* Names the physics that the type does not support, or a limit that the scene exceeds. `words` is
- * empty if and only if there is none. Returns 0 if the type supports everything that the scene
- * requires. */
+/* Writes the names of the physics that the type does not support, or a limit that the scene
+ * exceeds, to `words`, which is empty if and only if there is none. Returns 0 if the type supports
+ * everything that the scene requires. */
 int missing_words(const scene *, const element_type *, char *words, int size);
-/* Names missing physics that prevents any solution of the scene. Returns 0 if the scene can be
- * solved. */
+/* Writes the names of missing physics that prevents any solution of the scene to `words`. Returns 0
+ * if the scene can be solved. */
 int missing_refused(const scene *, const element_type *, char *words, int size);
 /* Returns the physics that a solution omits, as bits of FEATURE_* and OMIT_*. */
 unsigned missing_omits(const scene *, const element_type *);
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
 
-/* Names the features that the scene requires and that the type supports in one direction only
- * (element_lack). Returns 0: there are no such features; 1: they are negligible; 2: missing_words
- * also names them. */
+/* Writes to `words` the features that the scene requires and that the type supports in one
+ * direction only (element_lack). Returns 0: there are no such features; 1: they are negligible; 2:
+ * missing_words also names them. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
 
 struct model_state {
@@ -856,21 +861,21 @@ static inline const double *model_history_of(const model *m, const model_state *
 typedef struct movable {
     int count;
     unsigned components; /* bit i: at least one motion contains component i */
-    int whole;           /* 1: the motions are single components */
-    int component[6];    /* [count] components of these motions */
+    int whole; /* 1: each motion is a single component; 0: a motion combines several components */
+    int component[6]; /* [count] components of these motions */
     /* [6 x count] a basis, with lengths in units of `length`: unit vectors if they span the
      * motions, otherwise orthonormal vectors */
     double span[36];
-    /* [count x 6] dual span = 1; the smallest combination of components that gives the share of a
-     * basis vector */
+    /* [count x 6] dual basis, with dual span = 1: the combinations of components, of smallest norm,
+     * that give the share of each basis vector in a motion */
     double dual[36];
 } movable;
 
 /* Finds the possible motions from T[6 x columns]. The columns of T are motions of order 1:
  * displacement per displacement, or rotation per angle. length [m] > 0: size of the structure. */
 void movable_of(int columns, const double *T, double length, movable *out);
-/* Sets out[3] to m without its part along the rotations in the columns of T. These rotations are
- * not prescribed, so a moment along them is a residual of Newton's method. */
+/* Sets out[3] to the moment m without its part along the rotations in the columns of T. These
+ * rotations are not prescribed, so a moment along them is a residual of Newton's method. */
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
 
 /* Describes what is lumped, with the order of convergence in space: loads with `lumped`, masses
@@ -902,8 +907,8 @@ static inline const mesh_release *release_of(const model *m, int vertex)
  * the rotation vector, which is NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
 /* Like release_value, but for small motions x about the undeformed state `rest`, and without the
- * contribution of the node's rotation. This contribution is the scalar product of `node` and the
- * rotation. */
+ * contribution of the rotation of the node. Sets `node` such that this contribution is the scalar
+ * product of `node` and the rotation. */
 double release_linear_value(const model *, const model_state *rest, const double x[], int member,
                             int end, int component, double node[3]);
 /* Changes the released coordinates of the end by dx. Returns the largest change: a displacement
@@ -938,30 +943,32 @@ void spring_slopes(const model *, const model_state *, int spring, double S[36])
 
 /* Computes the deformation d of a spring in the axes of p: R_p^T (r_q - r_p) minus its initial
  * value [m], and the rotation vector of R_p^T R_q [rad]. If q is the only node, p is the ground. In
- * x[nodes], R is the rotation relative to the undeformed state. Output: out->e[6], out->J[6 x 7
- * nodes], and out->H[7 nodes x 7 nodes] for the stresses out->s[6], in the exponential chart. near:
- * tracked rotation vector, which distinguishes several revolutions; NULL: the rotation is less than
- * half a revolution. */
+ * x[nodes], R is the rotation relative to the undeformed state. The output is out->e[6], out->J[6 x
+ * 7 nodes], and out->H[7 nodes x 7 nodes] for the stresses out->s[6], in the exponential chart.
+ * near: tracked rotation vector, which distinguishes several revolutions; NULL: the rotation is
+ * less than half a revolution. */
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
-/* Checks if the supports hold all parts of a structure. A rigid motion of a part has six
+/* Check whether the supports fix all parts of a structure. A rigid motion of a part has six
  * components: the displacement of an origin, and the rotation times the size of the model. */
 
-/* Returns 1 if a part of the undeformed structure can move in spite of the supports. *node: a node
- * of this part. motion: a rigid motion that the supports allow, scaled arbitrarily (displacement of
- * the node [m], rotation [rad]). Prescribed coordinates count as fixed. Only parts with members are
- * checked. Returns 0 without a check if the scene has constraints, or if out of memory. */
+/* Returns 1 if a part of the undeformed structure can move in spite of the supports. Then sets
+ * *node to a node of this part, and `motion` to a rigid motion that the supports allow, with
+ * arbitrary scale (displacement of the node [m], rotation [rad]). Prescribed coordinates count as
+ * fixed. Only parts with members are checked. Returns 0 without a check if the scene has
+ * constraints, or if out of memory. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Smallest relative eigenvalue of the sum of squares for which a part counts as held. */
+/* Smallest relative eigenvalue of the sum of squares for which a part counts as fixed. */
 extern const double supports_loose;
 
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
-/* Returns the vertex that rigidly moves this vertex. apart 1: a released end moves itself. */
+/* Returns the vertex that rigidly moves this vertex. If `apart` is 1, a released end counts as
+ * independent and is returned itself. */
 int supports_mover(const model *, int vertex, int apart);
-/* Computes G[6 x 6], the rigid motion (m, rad) of a position due to the motion of the origin:
- * displacement [m], and rotation times `length` [m]. */
+/* Computes G[6 x 6], which gives the motion [m, rad] of a position from the rigid motion of the
+ * origin: its displacement [m], and the rotation times `length` [m]. */
 void supports_rigid(const double position[3], double length, double G[36]);
 /* Computes the matrix out[6 x 6] of the motions that the supports of a node prevent, for rigid
  * motions about the origin. */
@@ -978,8 +985,9 @@ extern const char turns_lost[];
 const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 
-/* Relative rotation vectors depend on the quantities of a run. These functions store them for a
- * continued motion: their number, and the two nodes and the three components [5] of each vector. */
+/* Relative rotation vectors depend on the quantities of a run. For a motion that another run
+ * continues, these functions return the number of these vectors, and store and restore the two
+ * nodes and the three components [5] of each vector. */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);

@@ -5,7 +5,8 @@
 #include "elements/element.h"
 #include "harness/model/model.h"
 
-/* Makes the division. elements: number per piece of each member that does not specify a number. */
+/* Divides the members into elements. elements: number of elements per piece of each member that
+ * does not specify a number. */
 status division_make(const scene *, int elements, division *, fault *);
 void division_free(division *);
 
@@ -31,7 +32,7 @@ unsigned features_of_quantities(const scene *);
 /* Removes omitted shear flexibilities and eccentricities from the constants of a section. */
 void missing_omit(section *, unsigned omits);
 /* Returns the description of the limit of the type that a section with this number of closed cells
- * exceeds; NULL: none. warps 1: the scene requires warping. */
+ * exceeds; NULL: the section exceeds none. warps: 1 if the scene requires warping. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
 /* Sections of the elements. The sections of the scene come first, followed by one section for each
@@ -55,8 +56,8 @@ void release_jacobian(const model *, const model_state *, int vertex, int count,
 /* Sets the positions and orientations of released ends. */
 void release_follow(const model *, model_state *);
 
-/* Transforms force[6] from the frame of the end to the frame of its node. own[]: forces on the
- * released coordinates. */
+/* Transforms force[6] from the frame of the end to the frame of its node, and sets own[] to the
+ * forces on the released coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
 /* Transforms K to the frame of the node, as release_force does for the force. The six coordinates
  * of the end start at `at`, and the released coordinates start at `own`. force[6]: force on the
@@ -116,8 +117,8 @@ struct model_imperfect {
     double *place, (*shift)[3], (*turn)[3];
 };
 
-/* Creates a model. imperfect: shape for the requested scene, which must outlive the model; NULL:
- * perfect. */
+/* Creates a model. imperfect: initial shape of the requested scene, which must outlive the model;
+ * NULL: the structure is perfect. */
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
 const scene *imperfect_lines(const model *);
 /* Moves a point of the line of a member, and rotates its triad, by the imperfection at `place`. */

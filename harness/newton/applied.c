@@ -96,8 +96,8 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
     return of_vertex(s, load->where, &force, scale, NULL, body->centre);
 }
 
-/* Returns the factor of the load vector per length of an element: the mass per length for gravity,
- * otherwise 1. */
+/* Returns the factor that makes the load vector a force per length of an element: the mass per
+ * length for gravity, and 1 for other loads. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
     const section *c = model_section(m, model_kind(m, el->kind)->section);

@@ -38,8 +38,8 @@ typedef struct run_undeformed {
 
 /* Data of all elements that linearise_state passes to advance_state. */
 typedef struct linear_memory {
-    /* [elements x model.work_size] J, C, P' + C (D - e), D - e, and the memory of the last
-     * linearisation, followed by the numbers from SLOT_TAKES on (model.h) */
+    /* [elements x model.work_size] J, C, P' + C (D - e), D - e, the memory of the type, and the
+     * numbers of the enumeration with SLOT_TAKES (model.h), all of the last linearisation */
     double *slot;
 } linear_memory;
 
@@ -142,8 +142,8 @@ typedef struct applied {
 double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
 /* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
- * the nodes of elements with the polynomials through these nodes, but the loads of
- * applied_with_mass with the shares of the mass. */
+ * the nodes of elements by the polynomials through these nodes; the loads of applied_with_mass are
+ * instead divided like the mass. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
 
@@ -192,13 +192,13 @@ status modes_separate(const model *, const scene *, int count, const double valu
  * of magnitude. */
 typedef struct outcome_side {
     int count;
-    double *value,
-        *mode;     /* [count] values (NAN: no digits, due to rounding); [count x free] modes */
+    /* [count] values (NAN: rounding errors leave no correct digit); [count x free] modes */
+    double *value, *mode;
     double *error; /* [count] estimated relative errors due to iteration and rounding; NULL: none */
     /* [count] growth rates of damped modes [1/s] (`error` then refers to growth + i value); NULL:
      * undamped */
     double *growth;
-    status status;           /* NOT_CONVERGED: some values are missing or have no digits */
+    status status;           /* NOT_CONVERGED: some values are missing or have no correct digit */
     char reason[FAULT_TEXT]; /* reason for NOT_CONVERGED */
 } outcome_side;
 typedef struct rotation_modes {
@@ -223,7 +223,7 @@ typedef struct outcome_spectrum {
     /* [1/s] largest growth rate about a state under loads without a potential; 0: the state is
      * stable */
     double growth;
-    const char *growth_meaning; /* meaning of the growth rate; NULL: as in `meaning` */
+    const char *growth_meaning; /* meaning of the growth rate; NULL: `meaning` states it */
     /* [free + driven] displacements due to initial strains only, the base state of modes without
      * loads; NULL: none */
     double *strained;
@@ -235,7 +235,7 @@ typedef struct outcome_path {
     model_state **state; /* [stations]; NULL for a compliance */
 } outcome_path;
 
-/* Compliance C and stiffness K of a node at one station. */
+/* Compliance C and stiffness K of a node at one station. known 1: both are set. */
 typedef struct station_matrices {
     int known;
     double C[36], K[36];
@@ -256,8 +256,9 @@ typedef struct outcome_rotation {
 } outcome_rotation;
 
 typedef struct outcome_instant {
-    double *rate,
-        *acceleration; /* [free + driven] as in harness/time/time_impl.h; one memory block */
+    /* [free + driven] rates of the coordinates (harness/time/time_impl.h) and their derivatives, in
+     * one memory block */
+    double *rate, *acceleration;
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
@@ -485,7 +486,7 @@ typedef struct linear_model {
     int eliminated; /* number of eliminated coordinates, which have neither mass nor damping */
     /* number of feedback loops, which are closed in `state` and open in the other matrices */
     int loops;
-    double apart; /* largest difference from the responses of a harmonic analysis, relative */
+    double apart; /* largest relative difference from the responses of a harmonic analysis */
     int farthest; /* quantity with this largest difference */
 } linear_model;
 
@@ -499,9 +500,9 @@ typedef struct reduced_model {
     /* [modes] natural frequencies [Hz] of the full and of the reduced model */
     double *whole, *reduced;
     /* [outputs x inputs] largest difference of the transfer functions at the frequencies of a
-     * harmonic analysis. difference: in SI units. apart: relative to the largest value; NAN: the
-     * full model's function is zero up to rounding. at: its frequency [Hz]. NULL: no harmonic
-     * analysis. */
+     * harmonic analysis: `difference` in SI units, and `apart` relative to the largest value of the
+     * full model's function (NAN: this function is zero up to rounding). `at`: frequency [Hz] of
+     * this difference. NULL: there is no harmonic analysis. */
     double *difference, *apart, *at;
 } reduced_model;
 
@@ -672,10 +673,10 @@ typedef struct path_event {
     /* numbers of negative pivots of the tangent before and after the event (of its eigenvalues as
      * in left_count, if it is unsymmetric); -1: unknown */
     int analysis, negative_before, negative_after;
-    /* load factor and control value [m] at the point; branch jump: at a control value of both
-     * branches */
+    /* load factor and control value [m] at the point; for a branch jump, at a control value that
+     * both branches contain */
     double factor, control;
-    /* critical point: bounds of the rounding errors of both; otherwise 0 */
+    /* bounds of the rounding errors of `factor` and `control` at a critical point; otherwise 0 */
     double factor_error, control_error;
     double other_factor; /* branch jump: load factor on the rejected branch; otherwise NAN */
     /* critical point: |phi . f|/(|phi| |f|), where phi is the null vector and f the load; branch
@@ -820,12 +821,12 @@ status tangent_take(analysis_context *c, const scene_compliance *a, const model_
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
-/* For a node that rotates by a sequence of angles, reduces the moment to the part due to prescribed
- * angles, which counts as a load. */
+/* For a node that rotates by a sequence of angles, replaces the moment by its part due to
+ * prescribed angles, which counts as a load. */
 status tangent_driven_moment(analysis_context *c, const model_state *s, int node, node_tangent *t,
                              double moment[3], fault *f);
-/* Removes the components of the reaction moment about axes of free rotation, which are no
- * reactions. */
+/* Removes the components of the moment about axes of free rotation, about which no reaction acts.
+ */
 void tangent_prescribed(const node_tangent *t, double moment[3]);
 /* Determines the components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
@@ -849,8 +850,8 @@ loading loading_of(const model *, int analysis);
 /* Returns the value [m or rad] of a driver whose motion is given. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
 /* Computes the value of a driver and its first two time derivatives during a motion. At a
- * discontinuity of the function, they are those that follow it. A driver without a function of time
- * keeps its value in the state from which the motion starts. */
+ * discontinuity of the function, computes the values after the discontinuity. A driver without a
+ * function of time keeps its value in the state from which the motion starts. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* Adds to out[free + driven] the forces of the load in a state, multiplied by `scale`. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
@@ -927,7 +928,8 @@ status linearise_state(const equations *, const linear_memory *, const model_sta
 /* Replaces the independent strains by e = D(x), and the independent stresses by sigma = P'(e). */
 status linearise_make_compatible(const equations *, model_state *, fault *);
 /* Computes the external force and spatial moment (loads and reactions) on the frame of a node in
- * the state: F[6] [N, N m]. sigma: as for internal_state. */
+ * the state: F[6] [N, N m]. sigma[elements x strains]: stresses; NULL: the stresses of the state.
+ */
 void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
 /* Adds to out[free + driven] the forces in equilibrium with the stresses of the listed elements and
@@ -976,10 +978,10 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
                       model_state *out);
-/* Interpolates the state in the middle between two states. *moved: the largest displacement
- * relative to the size of the structure, or rotation [rad], from one to the other. Returns 0,
- * without changing `middle`, if prescribed motions or load factors deviate from a line between the
- * states. */
+/* Interpolates the state in the middle between two states. Sets *moved to the largest motion of a
+ * node between the two states: the larger of its rotation [rad] and its displacement relative to
+ * the size of the structure. Returns 0, without changing `middle`, if prescribed motions or load
+ * factors deviate from a line between the states. */
 int extrapolate_between(const equations *, const model_state *from, const model_state *to,
                         model_state *middle, double *moved);
 
@@ -993,7 +995,8 @@ void history_evaluate_steps(solve_result *, const scene *, int analysis, int fir
 void history_evaluate_station(solve_result *, int analysis, double path, step_stability);
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
-/* path: path parameter of the initial state; NAN: none. */
+/* Adds the records of a motion. path: path parameter of the static state from which the motion
+ * starts; NAN: none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
 typedef struct history_mark {
@@ -1057,16 +1060,17 @@ typedef struct internal_place {
 } internal_place;
 
 /* Computes the resultants at a position on a member, and the other values of section_forces.h:
- * out[SPAN_VALUES]. NOT_CONVERGED: as for span_recover. REFUSED: a load begins, ends or acts inside
- * an element. In a motion, the mass is distributed evenly along an element, and accelerations are
- * interpolated between its nodes. */
+ * out[SPAN_VALUES]. REFUSED: inside the element, a distributed load begins or ends, or a
+ * concentrated load acts (distributed_jumps). Other failures are those of span_recover. In a
+ * motion, the mass is distributed evenly along an element, and accelerations are interpolated
+ * between its nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
 /* Computes the displacement of the centroid and the rotation vector of the section from the
- * undeformed to the given state at a position: out[6], in fixed axes, along the line of
- * section_forces.h. NO_VALUE: the rotation exceeds 3 rad. Other statuses are those of
- * internal_at. */
+ * undeformed to the given state at a position on a member: out[6], in fixed axes. The displacement
+ * follows the line of section_forces.h. NO_VALUE: the rotation exceeds 3 rad. Other statuses are
+ * those of internal_at. */
 status internal_moved(const equations *, const internal_state *, int member, double place,
                       double out[6], fault *);
 
@@ -1082,7 +1086,8 @@ status internal_largest(const equations *, const internal_state *, int member, i
 status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
 /* Computes the largest stress (STRESS_NORMAL_MIN: the smallest) over all sections of the member.
- * REFUSED: also if the axes of the sections rotate along the member. */
+ * REFUSED: the section has no stress points, or the axes of the sections rotate along the member.
+ */
 status internal_stress_largest(const equations *, const internal_state *, int member,
                                stress_measure, double *out, fault *);
 
@@ -1221,7 +1226,7 @@ newton_use newton_in_time(const analysis_context *, void *of,
 status newton_iterate(analysis_context *, const newton_use *, newton_convergence *, step_record *,
                       fault *);
 
-/* Moves the state to `path` by Newton's method. Failures: as for newton_iterate. */
+/* Moves the state to `path` by Newton's method. Returns the failures of newton_iterate. */
 status newton_to(newton_run *, double path, step_record *, fault *);
 
 /* Quadratic forms of the undeformed structure and of the stresses of a linear solution. */

@@ -66,7 +66,7 @@ status condensation_at(condensation *, const model_state *, double path, fault *
 void condensation_take(condensation *, const condensation *of, const model_state *);
 /* Returns the matrix of all end coordinates. */
 sparse *condensation_ends(condensation *);
-/* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric. */
+/* Factors the matrix of the unknowns. Returns the failures of factor_numeric. */
 status condensation_factor(condensation *, fault *);
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
@@ -82,7 +82,8 @@ status context_factor_condensed(analysis_context *, condensation *, fault *);
 /* Returns a factor that an earlier analysis stored for reuse; NULL: none. */
 matrix_factor *context_take_factor(analysis_context *);
 
-/* Finds the released coordinates of the node, and allocates the matrices of the border. */
+/* Finds the released coordinates of the node of the compliance analysis, and allocates the matrices
+ * of the border. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 
@@ -126,9 +127,9 @@ void distributed_add_taken(const model *, const along_output *out, const double 
  * `scale`. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* Like distributed_add_one, for all loads at `path`. Of loads that the element includes in its
- * equilibrium, it adds only the part that J^T sigma does not contain; about the state
- * kinematics_rest, the full forces. */
+/* Like distributed_add_one, for all loads at `path`. For loads that the element includes in its
+ * equilibrium, it adds only the part that J^T sigma does not contain; in the state kinematics_rest,
+ * it adds their full forces. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* Like distributed_add, but only for loads that the element includes in its equilibrium. */
@@ -174,11 +175,11 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
  * symmetric matrix cannot contain it. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* Adds the effect of reaction moments at nodes that are fixed about one axis only. Elements and
- * loads give derivatives of work in the exponential chart of a node's rotation. At such a node with
- * the fixed axis h, only the moments about the other two axes i and j are in equilibrium. The
- * derivatives of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2, with h,
- * i, j in cyclic order. */
+/* Adds the effect of reaction moments at nodes that are fixed about one axis only. K of elements
+ * and loads contains the derivatives of work in the exponential chart of a node's rotation. At such
+ * a node with the fixed axis h, only the moments about the other two axes i and j are in
+ * equilibrium. The derivatives of these moments differ by the reaction moment R: K_ij += R/2, K_ji
+ * -= R/2, with h, i, j in cyclic order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
 /* Checks that there is no reaction moment of linearise_add_held_moments. REFUSED: there is one, and
  * it has no potential. */
@@ -372,7 +373,8 @@ status chain_add(chain *, const chain_link *, fault *);
 /* Computes K[2 joint x 2 joint] of the ends, after all links have been added. SINGULAR: the chain,
  * clamped at both ends, is in a critical state. */
 status chain_stiffness(const chain *, double K[], fault *);
-/* Returns the number of negative eigenvalues for the inner coordinates, with both ends clamped. */
+/* Returns the number of negative eigenvalues of the stiffness for the inner coordinates, with both
+ * ends clamped. */
 int chain_negative(const chain *);
 
 /* Reduces loads to the ends. r[links x y]: loads on all coordinates except those of the ends, in
@@ -430,10 +432,10 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
 /* Pieces of a member: equal numbers of successive elements, whose coordinates between the ends are
- * eliminated. Coordinates of a piece are the motions relative to the motion of the whole piece with
- * its first node (the start), and this motion. Entries of the size of an element stiffness
- * therefore cancel only within a piece. Successive pieces form a group, with one piece in each
- * lane. */
+ * eliminated. The coordinates of a piece are the motion of its first node (the start), and the
+ * motions of its other nodes relative to the rigid motion of the piece with the start. Entries of
+ * the size of an element stiffness therefore cancel only within a piece. Successive pieces form a
+ * group, with one piece in each lane. */
 enum {
     PIECE_LANES = 4,
     PIECE_ELEMENTS = 32,
@@ -479,7 +481,7 @@ int triangular_pieces_next_plain(const piece_form *, double front[], double kept
 int triangular_pieces_next_avx2(const piece_form *, double front[], double kept[], int negative[]);
 /* Reduces the loads r[blocks x joint x lanes] on the eliminated nodes to loads on the two ends of a
  * piece: ends[2 x joint x lanes]. `expand` computes the motions from r of `reduce` and the motions
- * of the ends. arm[(blocks + 2) x 3 x lanes] */
+ * of the ends. arm[(blocks + 2) x 3 x lanes]: see piece_group. */
 void triangular_pieces_reduce_plain(const piece_form *, int blocks, const double kept[],
                                     const double arm[], double r[], double ends[]);
 void triangular_pieces_reduce_avx2(const piece_form *, int blocks, const double kept[],
@@ -567,9 +569,9 @@ enum { SYMMETRIC_MOST = CHAIN_LINK };
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains]. For a
- * member with initial strains, also the first-order stresses [strains] of the element with fixed
- * nodes (NULL: none). */
+/* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains].
+ * `initial`: first-order stresses [strains] due to initial strains in the element with fixed nodes;
+ * NULL: the member has no initial strains. */
 typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;

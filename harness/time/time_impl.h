@@ -10,7 +10,8 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* Call motion_state_recall before a step, and motion_state_store after the step. */
+/* Copy the convergence history of Newton's method between a motion_state and newton_convergence.
+ * Call motion_state_recall before a step, and motion_state_store after the step. */
 void motion_state_recall(const motion_state *from, newton_convergence *);
 void motion_state_store(const newton_convergence *, motion_state *to);
 
@@ -50,8 +51,8 @@ status account_check(const account *, const scene_motion *, double time,
  * stiffness of the undeformed element. For dashpots, e' are the deformation rates of the spring,
  * and V is given. */
 
-/* Sets the strain rates to known + g (e - strains of `from`) with known[model_stresses]. from NULL:
- * g is 0. */
+/* Sets the strain rates to known + g (e - strains of `from`) with known[model_stresses]. `from` may
+ * be NULL if g is 0. */
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
 /* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
@@ -69,7 +70,8 @@ double springs_circulating_power(const model *, const model_state *, const doubl
 /* Adds the force of dashpots to F[6] on the frame of a node. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
-/* Computes strain rates from the rates of the coordinates. Without damping, nothing changes. */
+/* Computes the strain rates of a motion_state from the rates of its coordinates. Changes nothing
+ * without damping. */
 status damping_now(const equations *, motion_state *, fault *);
 /* Returns the power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
@@ -77,7 +79,8 @@ double damping_power(const equations *, const double rate[]);
 /* Generalized-alpha on the group of rotations (Chung & Hulbert 1993; Bruls, Cardona & Arnold 2012):
  *   inc = h v + h^2 [(1/2 - beta) a + beta a1],  v1 = v + h [(1 - gamma) a + gamma a1],
  *   (1 - alpha_m) a1 + alpha_m a = (1 - alpha_f) v1' + alpha_f v'. The true accelerations v1'
- * satisfy equilibrium at the end of the step. Rotations are in the axes of the frame. */
+ * satisfy equilibrium at the end of the step. Increments of rotations are in the axes of the frame.
+ */
 
 /* Allocates the scheme. The error estimate of a step is the error of its positions, h^2 |beta +
  * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
@@ -139,9 +142,9 @@ typedef struct body_mass {
 
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of a body in a state; for the first of several connected bodies, that of
- * all of them. Returns the largest mass of a frame, or three times the mass of a node with
- * consistent mass if this is larger [kg]. */
+/* Computes the mass matrix of a body in a state. If several bodies are connected, computes the
+ * matrix of all of them for the first body. Returns the largest mass of a frame, or three times the
+ * mass of a node with consistent mass if this is larger [kg]. */
 double body_mass_of(const model *, const frame_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -181,12 +184,12 @@ typedef struct cayley_step {
     const node_state *from;
 } cayley_step;
 
-/* Starts from the increments dr[nodes x 3], c[nodes x 3] and da[nodes]. The memory of `from` must
- * remain valid. */
+/* Computes the members of cayley_step from the increments dr[nodes x 3], c[nodes x 3] and
+ * da[nodes]. The memory of `from` must remain valid while the structure is used. */
 void cayley_begin(int nodes, int ground, const node_state from[], double dr[][3], double c[][3],
                   const double da[], cayley_step *);
 
-/* The relative motion at s in [0, 1]: r(s), R(s) and a(s), and exp(s phi) for every node. */
+/* State at s in [0, 1] of the step: r(s), R(s), a(s) and exp(s phi) of every node. */
 typedef struct cayley_point {
     double at;
     double turn[ELEMENT_MAX_NODES][9];
@@ -213,9 +216,9 @@ typedef struct strain_update strain_update; /* data for one state */
 status strain_update_alloc(const equations *, strain_update **out, fault *);
 void strain_update_free(strain_update *);
 
-/* Call it before advance_state. NULL: nothing happens. */
+/* Call it before advance_state. It does nothing if the data are NULL. */
 void strain_update_begin(strain_update *, const model_state *);
-/* Changes e of each element so that its stresses become sigma; call it after advance_state. An
+/* Changes e of each element so that its stresses become sigma. Call it after advance_state. An
  * element does not change if its stresses agree to 10 %, or if no such strains are found.
  * iteration: starts at 1. correction: size of Newton's correction. */
 void strain_update_apply(strain_update *, model_state *, int iteration, double correction);
@@ -235,8 +238,9 @@ void inertia_chart(const model *, int vertex, const double inc[], const double R
 /* Computes E = R N, the same derivative in global axes. */
 void inertia_turn(const model *, int vertex, const model_state *, const double inc[], double E[9]);
 
-/* Computes two matrices of a body. Columns of turn: spatial rotation per unit of a rotation
- * coordinate. Columns of rate: angular velocity per unit rate of a rotation coordinate. */
+/* Computes two matrices of a body. Each column of `turn` is the spatial rotation per unit of a
+ * rotation coordinate, and each column of `rate` is the angular velocity per unit rate of this
+ * coordinate. */
 void inertia_turns(const model *, const model_state *, int vertex, double turn[9], double rate[9]);
 
 /* Forms of the rates of frames and of all coordinates. For translations, warping amplitudes and
@@ -255,7 +259,7 @@ status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
 /* Velocity and acceleration of the frame of a node in global axes [m/s, rad/s, m/s^2, rad/s^2],
- * computed from the rates v[free + driven] and their derivatives a (NULL: zero). */
+ * computed from the rates v[free + driven] and their derivatives a, which are zero if a is NULL. */
 typedef struct frame_rates {
     double R[9];
     double v[3], w[3], a[3], wd[3];
@@ -276,8 +280,8 @@ void forms_add_force(const model *, const model_state *, int vertex, const doubl
 void inertia_force_at(const frame_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const frame_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
-/* Subtracts from out[free + driven] the inertia forces for the rates v and their derivatives a. a
- * NULL: only terms due to v. */
+/* Subtracts from out[free + driven] the inertia forces for the rates v and their derivatives a. If
+ * a is NULL, subtracts only the terms due to v. */
 void inertia_subtract(const model *, const frame_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
@@ -295,15 +299,16 @@ typedef struct inertia_swing {
     double rate;      /* [rad/s] rate of the angle */
     double change[3]; /* derivative of the acceleration with respect to the angle [m/s^2] */
 } inertia_swing;
-/* a NULL: zero accelerations. */
+/* Computes the data of a frame on an arm. If a is NULL, accelerations are zero. */
 void inertia_swing_of(const model *, const model_state *, int vertex, const double v[],
                       const double a[], inertia_swing *out);
-/* Two functions add the motion on the arm to K[n x n], before its rows are transformed to
- * coordinates. The coordinates of the frame start at `at`. inertia_swing_column: adds the terms due
- * to the change of `moved` with the angle to a column out[n]. A and C [n x n] are the derivatives
- * of the force with respect to accelerations and velocities; rate and place are the factors of the
- * derivatives with respect to the rate of the angle and to the angle. inertia_swing_row: adds the
- * row of the angle, for a force[3] on the frame. */
+/* Two functions add the terms of a frame on an arm to K[n x n], before the rows of K are
+ * transformed to coordinates. The coordinates of the frame start at index `at`.
+ * inertia_swing_column adds the terms due to the change of `moved` with the angle to a column
+ * out[n]. A and C [n x n] are the derivatives of the force with respect to accelerations and
+ * velocities; `rate` and `place` are the factors of the derivatives with respect to the rate of the
+ * angle and to the angle. inertia_swing_row adds the row of the angle for a force[3] on the frame.
+ */
 void inertia_swing_column(const inertia_swing *, int n, int at, const double A[], const double C[],
                           double rate, double place, double out[]);
 void inertia_swing_row(const inertia_swing *, int n, int at, const double force[3], double place,
@@ -323,9 +328,9 @@ typedef struct inertia_parts {
 } inertia_parts;
 void inertia_frame(const model *, const frame_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* inertia_times computes out = A diag(translation 1, B). K is the sum of such
- * products. inertia_finish transforms the rows of K to coordinates, and adds the motion on an arm.
- * rate, place: as for inertia_swing_column. */
+/* inertia_times computes out = A diag(translation 1, B). K is the sum of such products.
+ * inertia_finish transforms the rows of K from global axes to coordinates of the frame, and adds
+ * the terms of a frame on an arm (inertia_swing). For rate and place, see inertia_swing_column. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
 void inertia_finish(const model *, const frame_masses *, int index, const inertia_parts *,
                     double rate, double place, double K[36]);
@@ -401,14 +406,14 @@ typedef struct conserving {
     long counted;
 } conserving;
 
-/* Computes the energies, and the data of the springs, at the start of the step. */
+/* Computes the energies and the data of the springs at the start of the step. */
 status conserving_begin(conserving *, const motion_state *from, fault *);
-/* Computes the stresses for the current strains, and k. k is 0 in iterations 1 and 2, if nothing
- * moves, and if it would be too large. */
+/* Computes the stresses for the current strains, and k. k is 0 in iterations 1 and 2. It is also 0
+ * if nothing moves or if k would be too large. */
 status conserving_stresses(conserving *, const motion_state *from, model_state *now, int iteration,
                            fault *);
-/* Updates the strains at the end of the step and d, for the increments dx. Returns the largest
- * change of an inner unknown. */
+/* Updates d and the strains at the end of the step by the increments dx. Returns the largest change
+ * of an inner unknown. */
 double conserving_update(conserving *, const motion_state *from, model_state *now);
 
 void conserving_forces(conserving *, const motion_state *from, model_state *now,
@@ -473,8 +478,8 @@ void frame_mass_step_sway(const frame_mass_step *, double h, const double T[9],
 void frame_mass_step_late(const frame_mass *, const frame_mass_step *, double h, const double T[9],
                           const double sway[9], double K[36]);
 
-/* d phi_j = own_j dc_j + common_j dc, where c is the mean. d z_j has the same form. spin dc is the
- * derivative of G. */
+/* Derivatives: d phi_j = own_j dc_j + common_j dc, where c is the mean, and d z_j in the same form.
+ * spin dc is the change of G. */
 typedef struct cayley_slopes {
     double kappa[3], b[3], spin[9];
     double own[ELEMENT_MAX_NODES][9], common[ELEMENT_MAX_NODES][9];
@@ -489,8 +494,8 @@ void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cay
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Checks massless coordinates. REFUSED: there are some, and the scheme is generalized-alpha with
- * alpha_f <= alpha_m, as for rho_inf = 1. */
+/* Checks whether the scheme allows massless coordinates. REFUSED: there are massless coordinates,
+ * and the scheme is generalized-alpha with alpha_f <= alpha_m, for example with rho_inf = 1. */
 status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
@@ -534,8 +539,8 @@ typedef struct deformable {
     double length;         /* [m] reference length for incompatibilities */
 } deformable;
 
-/* deformable_count: number of deformables, first all elements, then all springs. deformable_at:
- * data of a deformable. */
+/* deformable_count returns the number of deformables, which are first all elements, then all
+ * springs. deformable_at returns the data of one of them. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const motion_state *from, model_state *now, int i);
 int deformable_together(const conserving *, int first);
@@ -552,8 +557,8 @@ struct deformable_values {
     double J[DEFORMABLE_POINTS][DEFORMABLE_STRAINS * ELEMENT_MAX_COORDINATES];
     /* second derivatives at the points between the ends */
     double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    /* Equations of a deformable: forces on dr, c and da of the coordinates, their tangent, the
-     * column A^T W d and the row k_e + k_d. */
+    /* Equations of a deformable: forces conjugate to dr, c and da, their tangent, the column A^T W
+     * d and the row k_e + k_d. */
     double force[DEFORMABLE_COORDINATES], column[DEFORMABLE_COORDINATES],
         row[DEFORMABLE_COORDINATES];
     double K[DEFORMABLE_COORDINATES * DEFORMABLE_COORDINATES];
@@ -565,8 +570,8 @@ void deformable_evaluate(const conserving *, const motion_state *from, const mod
 
 /* Checks the drivers. REFUSED: the value of a driver is unknown. */
 status drive_check(const model *, fault *);
-/* Computes entries [free, free + driven) of inc (relative to the state), v and a at `time`; NULL:
- * not requested. */
+/* Computes the entries [free, free + driven) of v, a and inc (the increment from the state) at
+ * `time`. An array that is NULL is not requested. */
 void drive_at(const equations *, const model_state *from, double time, double inc[], double v[],
               double a[]);
 
@@ -588,8 +593,8 @@ typedef struct explicit_scheme {
      * feedback; their error estimates from GSL; their derivatives at the end of the step */
     double *y, *error, *dydt;
     double *inc, *residual; /* [free + driven] */
-    double *memory,
-        *still; /* memory of one element (its type defines the size); zero increments of strains */
+    /* memory of one element, whose type defines the size; zeros, used as increments of strains */
+    double *memory, *still;
     double power;   /* [W] power absorbed by dashpots and by springs without a potential */
     double *weight; /* [free + driven] weights as in model.h */
     const motion_state *from; /* start of the current step */
@@ -631,12 +636,12 @@ extent extent_with(const extent *, const model *, const motion_scheme *, const m
  * previous estimate, which decays exponentially over a phase of ten radians. At a change of sign of
  * the rates, the error of positions is zero, but the error of the rates is largest. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
-/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion; at
+/* Returns the allowed error of a part of the motion for the tolerance of the whole motion. It is at
  * least the rounding error of the coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
 /* Returns 1 if the completed motion was less than half of the estimate and exceeds the rounding
- * error of its initial state, and its steps are too long for a tolerance relative to its size.
- * *scale: a better estimate. */
+ * error of its initial state, and its steps are too long for a tolerance relative to its size. Sets
+ * *scale to a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 typedef struct frames {
@@ -648,7 +653,8 @@ typedef struct frames {
     motion_state at;
 } frames;
 
-/* Allocates the frames. count 0: no pictures. The caller sets m, to, begin and end. */
+/* Allocates memory for `count` frames; 0: no frames are requested. The caller sets m, to, begin and
+ * end. */
 status frames_alloc(frames *, int count, fault *);
 void frames_free(frames *);
 /* Stores the initial state. */
@@ -669,7 +675,7 @@ void increment_add(const model *, const model_state *now, const double dx[], dou
 
 /* The requested integrator. */
 
-/* Allocates the requested integrator. REFUSED: the integrator cannot integrate this model; the
+/* Allocates the requested integrator. REFUSED: the integrator does not support this model; the
  * message gives the reason. */
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
@@ -684,8 +690,8 @@ double discontinuities_before(const model *, double time);
  * et al., section 4). The state is in equilibrium with the inertia forces of rates that follow the
  * increment, v = v0 + g inc, a = a0 + b inc. */
 
-/* Returns 1 if the last factors may be used again, because the corrections of coordinates and
- * stresses are at most 1e-4 and those of coordinates at most a tenth of the previous ones. */
+/* Returns 1 if the last factors may be used again: the corrections of coordinates and stresses are
+ * at most 1e-4, and those of coordinates are at most a tenth of the previous ones. */
 int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
@@ -704,7 +710,7 @@ typedef struct motion_stage {
 status stage_alloc(analysis_context *, const frame_masses *, motion_stage *, fault *);
 void stage_free(motion_stage *);
 
-/* Solves S dx = residual. fresh 0: the existing factors are used. */
+/* Solves S dx = residual. If `fresh` is 0, uses the existing factors. */
 status stage_direction(motion_stage *, int fresh, fault *);
 
 /* All arrays have [free + driven] entries. h [s]: step size of the trapezoidal rule for the
@@ -712,12 +718,12 @@ status stage_direction(motion_stage *, int fresh, fault *);
 typedef struct stage_rates {
     double b, g, h;
     const double *a0, *v0;
-    /* input: initial inc; those of prescribed coordinates are exact */
+    /* inc contains the initial increments on entry, which are exact for prescribed coordinates */
     double *inc, *v, *a;
 } stage_rates;
-/* Computes the state at `time`. On entry, `now` contains strains and stresses of `from` or an
- * extrapolation; on return, it is the state. NOT_CONVERGED: the fault gives the reason, and `now`
- * is invalid. */
+/* Computes the state at `time`. On entry, `now` contains the strains and stresses of `from` or
+ * extrapolated ones; on return, it contains the state. NOT_CONVERGED: the fault gives the reason,
+ * and `now` is invalid. */
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
@@ -726,9 +732,9 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
  * from its coordinate. */
 status consistent_restart(analysis_context *, const frame_masses *, const scene_motion *,
                           motion_state *now, motion_state *room, fault *);
-/* Sets the initial rates of a structure that is at rest in rotating axes, plus the requested
+/* Sets the initial rates to those of a structure at rest in rotating axes, plus the requested
  * velocities. `now` contains the state and the time; `room` is work space. frame: angular velocity
- * [rad/s] and centre [m] of the axes; omega zero: the axes do not rotate. REFUSED: a fixed or
+ * [rad/s] and centre [m] of the axes, which do not rotate if omega is zero. REFUSED: a fixed or
  * prescribed coordinate does not follow this rotation, the velocities violate a constraint, or the
  * value of a driver differs from its coordinate. */
 status initial_conditions_rotating(analysis_context *, const frame_masses *, const scene_motion *,
@@ -833,8 +839,8 @@ void frame_motion_step(const conserving *, const model_state *from, const model_
                        int vertex, double dr[3], double c[3]);
 
 /* Transforms forces[n] of a frame to its coordinates. The six coordinates of its body start at
- * index `at`, and the released coordinates start at index `own`. The other functions transform
- * rows, or both sides of K[n x n]. */
+ * index `at`, and the released coordinates start at index `own`. frame_motion_row transforms a row,
+ * and frame_motion_matrix transforms the rows and columns of K[n x n]. */
 void frame_motion_forces(const frame_motion *, int at, int own, double forces[]);
 void frame_motion_row(const frame_motion *, int at, int own, double row[]);
 void frame_motion_matrix(const frame_motion *, int n, int at, int own, double K[]);
@@ -987,20 +993,22 @@ typedef struct resume_control {
  * motion is stored for another run if solve_options.keep_ends is 1. */
 status resume_keep(const analysis_context *, int analysis, const motion_state *now,
                    const resume_control *, outcome_motion *, fault *);
-/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped
+/* Sets *out to the end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped
  * prematurely. */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
-/* Sets the state and the step control from an end. REFUSED: the end belongs to another mesh. */
+/* Sets the state and the step control to those at the end of an earlier motion. REFUSED: that
+ * motion has another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, motion_state *now,
                    resume_control *, fault *);
 
 /* Consistent state of coordinates without inertia, computed from positions and rates at one
  * time. */
 
-/* Brings massless coordinates into equilibrium with the loads and with the gyroscopic moments of
- * the other rates. Then computes accelerations (0 for massless coordinates). Coordinates whose
- * relaxation time exceeds a fraction of the step h [s] keep their positions; their rates follow
- * from equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
+/* Brings massless coordinates into equilibrium with the loads and with the gyroscopic moments due
+ * to the rates of the other coordinates. Then computes accelerations, which are 0 for massless
+ * coordinates. Coordinates whose relaxation time exceeds a fraction of the step h [s] keep their
+ * positions; their rates follow from equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no
+ * equilibrium was found. */
 status consistent_massless(motion_stage *, const double zero[], double h, motion_state *now,
                            fault *);
 
@@ -1065,9 +1073,9 @@ void consistent_mass_element(const model *, int element, const model_state *, co
 /* Computes only the mass matrix, p->acceleration, and p->turn, in the given state. */
 void consistent_mass_masses(const model *, int element, const model_state *,
                             consistent_mass_parts *);
-/* Motion of a body per unit of its coordinates: a factor for translations and warping, and a matrix
- * for rotations. For a released end: matrices for the spatial rotations of its body and of a ball
- * joint, and factors for the other coordinates. */
+/* Motion of a body per unit of its coordinates: a factor for translations and warping (`plain`),
+ * and a matrix for rotations (`turn`). A released end has matrices for the spatial rotations of its
+ * body and of a ball joint (`turn`, `ball`), and the factor for the other coordinates. */
 typedef struct consistent_mass_motion {
     double plain, turn[9], ball[9];
 } consistent_mass_motion;
@@ -1079,8 +1087,8 @@ void consistent_mass_place(const model *, const consistent_mass_parts *,
 void consistent_mass_times(const model *, const consistent_mass_parts *, const double A[],
                            const consistent_mass_motion motion[], double out[]);
 void consistent_mass_rows(const consistent_mass_parts *, double K[]);
-/* Adds the same terms as inertia_swing_column and inertia_swing_row, without the motion on the
- * arm. */
+/* Adds the terms of inertia_swing_column, and the term of `inward` of inertia_swing_row. The motion
+ * on the arm is part of consistent_mass_times. */
 void consistent_mass_swing(const model *, const consistent_mass_parts *, double rate, double place,
                            double K[]);
 
@@ -1101,8 +1109,8 @@ typedef struct abouts {
     motion_state at, room;
 } abouts;
 
-/* Allocates the data, if such times exist. The caller sets c, analysis, masses, how, scheme and
- * out. */
+/* Allocates the data if the motion has times at which other analyses need the state. The caller
+ * sets c, analysis, masses, how, scheme and out. */
 status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
 /* Computes the states at the times inside a step, without its end. */
@@ -1160,8 +1168,8 @@ int feedback_count(const equations *);
 void feedback_take(const equations *, const model_state *, const double v[], double time);
 /* Computes the errors (reference value minus measured value): out[feedback_count]. */
 void feedback_errors(const equations *, const model_state *, double time, double out[]);
-/* Size of a step [s], and times at which reference values are read for its ends; before a jump for
- * its end */
+/* Size of a step [s], and the times at which reference values are read for its ends. If the step
+ * ends at a jump, the values before the jump are read. */
 typedef struct feedback_step {
     double h, begin, end;
 } feedback_step;
@@ -1174,8 +1182,8 @@ typedef struct feedback_gains {
     double place, rate, integral;
 } feedback_gains;
 typedef void feedback_entry(void *to, int row, int column, double value);
-/* Computes minus the derivatives of the loads, on the pattern of motions. Call feedback_take
- * before. */
+/* Passes minus the derivatives of the loads to `take`, entry by entry. The pattern is that of
+ * motions. Call feedback_take first. */
 void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
                       feedback_entry *take, void *to);
 
@@ -1193,7 +1201,8 @@ typedef struct observer {
     const scene_quantity *q;
     outcome_passing *out;
     double from, until; /* [s] */
-    double noise;       /* distance from the level below which a value has no sign */
+    /* largest distance from the level at which a value still counts as on the level */
+    double noise;
     int side;           /* side of the level of the last value; 0: no value yet */
     int crossings;      /* number of counted crossings in the window, in the requested direction */
     double first, last; /* [s] first and last crossing */
@@ -1204,8 +1213,9 @@ typedef struct observer {
     double sum, span; /* time integral of values, or of squares relative to `largest`; length of the
                          interval [s] */
     double largest;   /* largest magnitude so far */
-    /* error of a mean. parts: number of steps with the polynomial; with probe steps, 0: none, 1:
-     * one step, 2: at least one pair. holds 1: `past` is the first step of a pair */
+    /* data for the error of a mean. parts: number of steps that used the polynomial; with probe
+     * steps, 1 for one step and 2 for at least one pair. holds 1: `past` is the first step of a
+     * pair */
     int parts, holds;
     means_part past;
     double add_error, worst; /* error of `sum`, and its largest magnitude */
@@ -1234,9 +1244,9 @@ status observers_step(observers *, const motion_state *from, const motion_state 
 void observers_end(observers *);
 /* Returns the value of the quantity at a time of the step, without factor and offset; NAN: none. */
 double observer_value(observers *, const observer *, double time);
-/* Computes the difference between a probe step to the given time and the polynomial; 0 for
- * quantities that do not use the polynomial, for jerks, at the ends of the step, and if the probe
- * step fails. */
+/* Computes the difference between a probe step to the given time and the polynomial. The difference
+ * is 0 for jerks, for quantities that do not use the polynomial, at the ends of the step, and if
+ * the probe step fails. */
 status observer_disagreement(observers *, const observer *, const motion_state *from, double time,
                              double *out, fault *);
 /* Returns the time of point i of Lobatto's rule from a to b. */

@@ -168,7 +168,7 @@ class Chart:
         self.panels, self.names = [], {}
 
     def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
-        """`like` is a panel whose vertical axis the new panel shares."""
+        """Adds a panel and returns it. `like` is a panel whose vertical axis the new panel shares."""
         y = like.y if like else Axis(ylog)
         self.panels.append(Panel(title, xlabel, ylabel, Axis(xlog, whole), y))
         self.panels[-1].shares = like is not None

@@ -179,9 +179,9 @@ NAMED = 3  # number of exceptions of a box that are stored, the worst first
 class Gathered:
     """Counts of F formulations, M meshes, Q quantities (and all of them together) in the C cells of the first lattice.
 
-      reaches      for each lattice, number of points by the first mesh from which all meshes are within the tolerance
-                   [C, F, Q+1, M+2]; M: no mesh; M+1: no mesh, and the finest mesh has no solution. Only points at
-                   which the formulation is compared are counted
+      reaches      for each lattice, numbers of points, sorted by the coarsest mesh such that it and all finer meshes
+                   are within the tolerance [C, F, Q+1, M+2]; M: no mesh; M+1: no mesh, and the finest mesh has no
+                   solution. Only points at which the formulation is compared are counted
       reach        `reaches` of the first lattice
       known        points with a reference value [C, Q+1]
       worst        largest error [C, F, Q+1, M], infinite without a solution, -1 if nothing is compared

@@ -57,8 +57,9 @@ class Look:
 
 
 def states(reach, points, look):
-    """Returns the states of fields. `reach` [..., M + 2] is the number of points by the first mesh from which all meshes
-    are within the tolerance (gather.Gathered). `points` is the number of points in each field."""
+    """Returns the states of fields. `reach` [..., M + 2] contains numbers of points, sorted by the coarsest mesh such
+    that it and all finer meshes are within the tolerance (gather.Gathered). `points` is the number of points in each
+    field."""
     count = look.none
     total, out = reach.sum(axis=-1), reach[..., count:].sum(axis=-1)
     top = count - 1 - np.argmax(reach[..., count - 1::-1] > 0, axis=-1)

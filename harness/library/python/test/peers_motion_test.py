@@ -164,7 +164,8 @@ class Against(MotionTest):
         return made
 
     def compare(self, found, want, bound):
-        """Errors are relative to the largest value of the same kind; a rotation, also to a translation over the length."""
+        """Errors are relative to the largest value of the same kind. For rotations, this value is at least the largest
+        translation divided by the length."""
         for key in found:
             alike = [k for k in want if len(k) == len(key) and k[:-1] == key[:-1]]
             size = max(abs(want[k]) for k in alike)

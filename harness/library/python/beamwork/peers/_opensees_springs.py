@@ -9,8 +9,8 @@ from .data import COMPONENTS, Mesh, Scene, Vector
 
 
 def add_springs(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] | None) -> None:
-    """Adds an element for each spring, with a node for the ground. ops: the interface of the program. moved: displacements of
-    the nodes."""
+    """Adds a zero-length element for each spring. A spring to the ground also gets a fixed node. ops: the interface of the
+    program. moved: displacements of the nodes; None: the structure is undeformed."""
     for i, spring in enumerate(scene.springs):
         number, directions = mesh.node_of[spring.end], [k for k in range(6) if spring.stiffness[k] != 0]
         begin = mesh.node_of[spring.begin] if spring.begin else len(mesh.nodes) + i
