@@ -6,12 +6,12 @@ import math
 from reports import answers
 
 AGREED = "agreement"  # kind of a value in the results on which at least two families of formulations agree
-FROM = " from that on which "  # in messages of verdicts
+FROM = " from that on which "  # these words precede the names of the formulations in messages of verdicts
 
 
 @dataclasses.dataclass(frozen=True)
 class Agreement:
-    """`words` names the formulations that agree, and the theory."""
+    """Value of a quantity on which formulations agree. `words` names these formulations and the theory."""
 
     quantity: str
     unit: str

@@ -181,7 +181,7 @@ def figures_of(site, case, index, point):
     if others and index == 0:
         out["others"] = plots.small_multiples(site, point, others[:MOST_PANELS],
                                               f"{name}_others")
-    taken = quantities if point is not case.points[index] else ()  # agreed limits are not another model
+    taken = quantities if point is not case.points[index] else ()  # agreed limits are not results of another model
     modelled = [q for q in point.units if q not in taken and any(plots.finite(s, q, "model_errors") for s in point.series)][:MOST_PANELS]
     if modelled and (index == 0 or point.others):
         out["model"] = plots.small_multiples(site, point, modelled, f"{name}_model",
@@ -218,7 +218,7 @@ def cheapest_of(point):
 
 def steps_of(cheapest):
     """Returns [(level, answers.Way, cost relative to that of 1 %)] of the levels below 1 %, for the first row of
-    cheapest_of(): what an order of magnitude in error costs."""
+    cheapest_of(). The ratio states what a tenfold smaller error costs."""
     found = cheapest[0][1] if cheapest else {}
     first = found[0.01].best if found else []
     return [(level, found[level].best[0], found[level].best[0].cost / first[0].cost) for level in (0.001, 0.0001)
@@ -292,8 +292,8 @@ def page_of(case, index):
 
 
 def parts_best(case):
-    """Returns the answers.Way of lowest cost to 1 % in all quantities at the default parameters, followed by the ways of
-    other formulations; without any, a series with a run."""
+    """Returns the answers.Way of lowest cost to 1 % in all quantities at the default parameters, followed by the
+    ways of other formulations. If there are no such ways, returns the series with a run."""
     point = agreed.ranked(case.points[0])
     found = answers.answer(point, answers.ALL, 0.01)
     ways = found.best + found.dearer + found.unranked + found.defective if answers.judged(point) else []

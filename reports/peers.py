@@ -160,7 +160,7 @@ def profile_of(site, records, level):
         ours = name == "beamwork"
         look = {"color": "currentColor" if ours else PALETTE[i % len(PALETTE)], "linewidth": 2.4 if ours else 1.3,
                 "gid": f"f|{name}"}
-        if shares[-2] > 0:  # at the largest factor; the table contains all programs
+        if shares[-2] > 0:  # solves a problem within the largest factor; the table contains all programs
             panel.plot(*profiles.stairs(at, shares[:-1]), label=name, **look)
     return chart.image(site, f"peers_profile_{100 * level:g}"), solved
 

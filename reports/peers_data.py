@@ -126,7 +126,7 @@ def untimed(series):
 
 def factors(found, level):
     """Returns {program or formulation: [(time relative to the fastest, weight)]} with infinite times for problems that are
-    not solved. A program counts with its fastest element."""
+    not solved. A program is represented by its fastest element."""
     all_ = problems(found, level)
     ours = {s["name"] for record in found for s in record["series"] if s["ours"]}
     names = sorted({program_of(s) for record in found for s in record["series"] if not untimed(s)} | ours)
@@ -141,12 +141,12 @@ def factors(found, level):
 
 
 def ahead(found):
-    """Returns [(record, quantity, level, rank())] where a peer is ahead of all formulations."""
+    """Returns [(record, quantity, level, rank())] where a peer is faster than all formulations."""
     return [(record, q, level, r) for level in LEVELS for record, q, _, r in problems(found, level) if r["ahead"]]
 
 
 def outcomes(record):
-    """Returns [(series, text)]: what prevented a program from solving anything, or "" if it solved something."""
+    """Returns [(series, text)], where the text is the reason why the program solved nothing, or "" if it solved something."""
     out = []
     for series in record["series"]:
         told = [series["missing"]] + [run[word] for run in series["runs"] for word in ("refusal", "failure") if word in run]

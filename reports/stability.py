@@ -74,7 +74,7 @@ def draw_band(fields, extremes, keys, all_cells, top):
 
 
 def draw_map(record, all_cells, look, meaning):
-    """`look` is {kind: (colour, sign)}, and `meaning` is {kind: description}."""
+    """Returns the Image of the map. `look` is {kind: (colour, sign)}, and `meaning` is {kind: description}."""
     extremes = record["extremes"]
     keys = [f["formulation"] for f in record["formulations"]]
     kinds = {c.kind for found in all_cells.values() for c in found.values()}

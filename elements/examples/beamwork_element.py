@@ -183,8 +183,7 @@ def described(body, said):
 
 
 def three(name, found, mask, parts, N, c, why):
-    """Returns the requested items of energy[N], a vector [N, c] and a matrix [N, c, c]. The mask contains the
-    requests."""
+    """Returns the requested items of energy[N], a vector [N, c] and a matrix [N, c, c]. Bit i of `mask` requests item i."""
     if not isinstance(found, (tuple, list)) or len(found) != 3:
         raise Refused(f"{name} must return three values: energy, {parts[0]}, {parts[1]}")
     all_three = [None if v is None and not mask >> i & 1 else
@@ -422,8 +421,8 @@ def taken(functions, words):
 
 
 def answer_all(requests, to, functions, said):
-    """Answers requests from a stream until the end of the stream, and writes the answers to another stream. functions,
-    said: of taken()."""
+    """Answers requests from a stream until the end of the stream, and writes the answers to another stream. functions, said: the
+    results of taken()."""
     functions, kinds = dict(functions), {}
     to.write(json.dumps(said).encode() + b"\n")
     to.flush()

@@ -1,5 +1,5 @@
-"""The beam of timoshenko.py made of a viscous (Kelvin-Voigt) material: stresses are C (e + eta e'), with an eta of
-its own for torsion.
+"""The beam of timoshenko.py made of a viscous (Kelvin-Voigt) material: stresses are C (e + eta e'), with a
+separate eta for torsion.
   beamwork solve --scene swing.yaml --element 'exec:python3 own_damping.py' -f own_damping_py -n 8
 """
 import numpy as np

@@ -19,8 +19,8 @@ DIGITS = 5e-7  # relative error of a printed number, due to its 7 digits
 
 
 class Incomplete(Exception):
-    """Raised if the deck was not solved to its end, was not written by beamwork, or has no place in the series of
-    the others, or if the reciprocal of a displacement of zero is needed."""
+    """Raised if the deck was not solved to its end, was not written by beamwork, or does not belong to the series
+    of the other decks, or if the reciprocal of a displacement of zero is needed."""
 
 
 def printed(path):

@@ -1,4 +1,5 @@
-"""Makes compile_commands.json from the commands that make would run: make -Bnk V=1 all tests | this program."""
+"""Writes compile_commands.json from the commands that make would run. usage: make -Bnk V=1 all tests |
+compile_commands.py"""
 import json
 import os
 import re

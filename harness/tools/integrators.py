@@ -2,8 +2,8 @@
 """Runs integrators on every case of motion, with every practical formulation that supports it: the problems of
 work-precision diagrams and performance profiles (harness/experiments/integrators.csv).
 
-usage: integrators.py PROGRAM -o FILE [WORD]     JSON for the report, and a line for each problem; WORD:
-only the rows whose case has it.
+usage: integrators.py PROGRAM -o FILE [WORD]     Writes JSON for the report and prints a line for each problem. With
+WORD, runs only the rows whose case contains this word.
 
 Each row is one run of `beamwork motion`. Its reference, radau at 1e-10, is compared with `explicit` (Runge-Kutta of
 order 8, which uses neither Newton's method nor a tangent) at two tolerances on the same mesh, once for each row if

@@ -125,9 +125,9 @@ class Panel:
         self.curves, self.back, self.words, self.lows = [], [], [], []
 
     def plot(self, x, y, back=False, **look):
-        """`look` may contain color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow and marks.
-        `marks` are the indices of the points with markers (default: all). If `back` is True, the curve is drawn
-        behind all others, without a label."""
+        """Adds a curve to the panel. `look` may contain color, marker, linestyle, gid, label, markersize, linewidth,
+        alpha, hollow and marks. `marks` are the indices of the points with markers (default: all). If `back` is True,
+        the curve is drawn behind all others, without a label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))

@@ -106,7 +106,8 @@ def line_of(options):
 
 
 class Styles:
-    """`keys` are the formulation keys of a results file, in any order and possibly repeated."""
+    """Colours, markers and lines of formulations. `keys` are the formulation keys of a results file, in any order and
+    possibly repeated."""
 
     def __init__(self, keys):
         self.order = sorted(set(keys))

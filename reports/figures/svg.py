@@ -171,7 +171,7 @@ def dressed(element, fixed):
 
 
 class Writer:
-    """`prefix` is the start of its identifiers, which is unique in the page."""
+    """Rewrites an SVG of matplotlib. `prefix` is the start of its identifiers, which must be unique in the page."""
 
     def __init__(self, root, prefix):
         text = ElementTree.tostring(root, encoding="unicode")

@@ -254,7 +254,7 @@ def put_edge(canvas, view, at, way, mark):
 
 
 def put_pin(canvas, at, way, mark, roller):
-    """`roller` is True if the support can slide."""
+    """Draws the symbol of a pinned support. `roller` is True if the support can slide."""
     across = np.array([-way[1], way[0]])
     foot = at + 11 * way
     canvas.area(np.array([at, foot - 7 * across, foot + 7 * across]), "white", INK, 1.1, mark=mark,

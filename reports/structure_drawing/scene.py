@@ -17,7 +17,8 @@ class Turn:
 
 @dataclass
 class Node:
-    """`position` is in [m], `held` are the components that do not move, and `driven` is {component: motion}."""
+    """A node of the scene. `position` is in [m], `held` are the components that do not move, and `driven` is {component:
+    motion}."""
     name: str
     position: np.ndarray
     part_of: str = ""
@@ -32,8 +33,8 @@ class Node:
 
 @dataclass
 class Member:
-    """`y` is the direction of the y axis of its section. `released` contains the names of the released components for
-    each end. `warping` contains "fixed", "free", "shared" or "" for each end."""
+    """A member. `y` is the direction of the y axis of its section. `released` contains the names of the released
+    components for each end. `warping` contains "fixed", "free", "shared" or "" for each end."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both ends

@@ -11,14 +11,15 @@ WIDE = 0.58  # width of a letter, relative to the font size
 
 
 class Drawn:
-    """What matplotlib returns for a line or an area. Identifiers are only for figures of papers."""
+    """Replacement for the objects that matplotlib returns for a line or an area. It ignores identifiers, which only
+    figures of papers need."""
 
     def set_gid(self, mark):
         pass
 
 
 class Sheet:
-    """`low` and `high` are the corners of the drawing [pt], with y upwards."""
+    """Writer of one drawing. `low` and `high` are the corners of the drawing [pt], with y upwards."""
 
     def __init__(self, low, high):
         self.left, self.top = float(low[0]), float(high[1])

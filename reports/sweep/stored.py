@@ -18,8 +18,8 @@ ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of formulations that are
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. `log` is True if its range is divided by equal factors. `words` are its strings in the
-    order of their indices. An axis of numbers has no words."""
+    """A parameter that was varied. `log` is True if its range is divided into logarithmic intervals. `words` are its
+    strings in the order of their indices. An axis of numbers has no words."""
 
     name: str
     unit: str
@@ -46,8 +46,8 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Worst:
-    """`quantity` is empty if there is no solution (see status). `error` is relative. `scene` is the name of the
-    stored scene file, or empty."""
+    """The worst point of a formulation and a mesh. `quantity` is empty if there is no solution (see status). `error`
+    is relative. `scene` is the name of the stored scene file, or empty."""
 
     point: int
     formulation: str

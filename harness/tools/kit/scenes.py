@@ -18,7 +18,7 @@ loads:
 
 
 def bad_scenes():
-    """Returns [(name, text)] of scenes with one error each."""
+    """Returns [(name, text)] of scenes that contain one error each."""
     folder = pathlib.Path(__file__).parents[3] / "cases/format/test/bad"
     files = (path.read_bytes().decode() for path in sorted(folder.glob("*.txt")))
     return [tuple(piece.split("\n", 1)) for text in files

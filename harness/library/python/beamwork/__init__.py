@@ -100,10 +100,10 @@ def verify(*formulations: str, select: str | None = None, results: str | _os.Pat
            **options: _Any) -> Verdicts:
     """Computes the verdicts of formulations (none named: all) on the built-in cases.
 
-    select: words with and, or, not, such as "c_column and not beamw_first"; None: all, which takes minutes.
-    results: an HDF5 file to write. progress: a function of (done, of, share, what).
-    options: tolerance (relative; replaces the tolerances of the cases), not_worse_than (results of a previous run:
-    larger errors of meshes and changed limits fail), jobs, time_limit [s] of a run, refine (number of additional meshes
-    of each series, each with twice the elements), shapes, stop (a file descriptor: when it becomes readable, the work
-    ends with TimeLimit), and those of `beamwork help verify`, with _ for -, such as imported="theirs.h5"."""
+    select: words with and, or, not, such as "c_column and not beamw_first"; None: all, which takes minutes. results: an
+    HDF5 file to write. progress: a function that is called with (done, of, share, what). options: tolerance (relative;
+    replaces the tolerances of the cases), not_worse_than (results of a previous run: larger errors of meshes and
+    changed limits fail), jobs, time_limit [s] of a run, refine (number of additional meshes of each series, each with
+    twice the elements), shapes, stop (a file descriptor: when it becomes readable, the work ends with TimeLimit), and
+    those of `beamwork help verify`, with _ for -, such as imported="theirs.h5"."""
     return _verified(None, formulations, select, results, options)

@@ -4,7 +4,7 @@ import resource
 import time
 from collections.abc import Mapping
 
-ROUND = 0.02  # [s] a round repeats set-up and solution for this time
+ROUND = 0.02  # [s] time for which a round repeats set-up and solution
 
 
 def clock() -> float:

@@ -8,7 +8,8 @@ from ._exudyn_modes import free_motions, require_no_torque, tangent
 from ._modes import critical_factors, require_still_springs
 from .data import Answer, Failed, Refused
 
-_FIRST, _SECOND = 1e-6, 3e-3  # the first displacement over the length or rotation; the second load over the critical one
+# first displacement divided by the length, or first rotation; ratio of the second load to the critical load
+_FIRST, _SECOND = 1e-6, 3e-3
 
 
 def _moved(model: Any, path: float) -> Any:

@@ -13,7 +13,8 @@ from ._loads import nodal, vectors
 from .data import (Analysis, Answer, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Refused, Scene, Section, State, Vector, product, rotation,
                    rotation_vector, times, transposed)
 
-_RIGID, _LESS_RIGID = 1e9, 1e7  # shear stiffness of sections that are rigid in shear, over EI/length^2; less in these analyses:
+# shear stiffness, divided by EI/length^2, of sections that are rigid in shear; lower values for these analyses:
+_RIGID, _LESS_RIGID = 1e9, 1e7
 _WITH_LESS = ("continuation", "buckling")
 
 
@@ -44,7 +45,7 @@ class Steps(Model):
         self.unknowns = 0
         self.node_at: dict[int, int] = {}  # nodes of Exudyn at nodes of the mesh
         self.of: dict[str, list[int]] = {node: [] for node in scene.nodes}  # at nodes of the scene, one for each member
-        self.base = ""  # the analysis whose last state the model is in
+        self.base = ""  # analysis in whose last state the model is
         self.kept: dict[str, list[tuple[float, Any, State]]] = {}  # path parameter, coordinates and state at stations
 
     def add(self, kind: str, **values: Any) -> int:
@@ -203,7 +204,7 @@ class Steps(Model):
         data.SetODE2Coordinates(state, configuration=types.Initial)
 
     def states_about(self, analysis: Analysis) -> list[tuple[float, Any, State]]:
-        """Returns path parameters, coordinates and states at the stations of the analysis about which another one is."""
+        """Returns path parameters, coordinates and states at the stations of the base analysis of another analysis."""
         if analysis.about is not None:
             return self.kept[analysis.about]
         zero = [0.0] * 6
@@ -244,7 +245,7 @@ class Steps(Model):
         raise NotImplementedError
 
     def stiffness_of(self, element: MeshElement) -> Any:
-        """Returns the stiffnesses for (gx, gy, gz, kx, ky, kz) in the axes in which the program gives resultants."""
+        """Returns the stiffnesses for (gx, gy, gz, kx, ky, kz) in the axes of the program's resultants."""
         raise NotImplementedError
 
 

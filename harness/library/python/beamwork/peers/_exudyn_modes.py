@@ -35,8 +35,8 @@ def _matrices(model: Any) -> tuple[Any, Any, Any]:
 
 
 def _rotations(model: Any, state: Any) -> Any:
-    """Returns the matrix from translations and small rotations about fixed axes, six of each node of the beam in space, to
-    small changes of the coordinates with Euler parameters."""
+    """Returns the matrix that maps translations and small rotations about fixed axes (six for each node of the beam in
+    space) to small changes of the coordinates with Euler parameters."""
     import numpy  # pylint: disable=import-outside-toplevel
     out = numpy.zeros((len(state), 6 * len(model.frame)))
     for k, node in enumerate(model.frame):
@@ -49,8 +49,9 @@ def _rotations(model: Any, state: Any) -> Any:
 
 
 def tangent(model: Any, state: Any) -> tuple[Any, Any]:
-    """Returns the stiffness matrix and the Jacobian of the constraints of a state, for translations and small rotations about
-    fixed axes of each node of the beam in space. The matrix contains no moments at nodes, see moment_stiffness()."""
+    """Returns the stiffness matrix and the Jacobian of the constraints of a state, for translations and small rotations
+    about fixed axes of each node of the beam in space. The matrix does not contain the effect of moments at nodes (see
+    moment_stiffness())."""
     types = model.exu.ConfigurationType
     model.mbs.systemData.SetODE2Coordinates(state, configuration=types.Initial)
     K, constraints, _ = _whole(model)
@@ -94,8 +95,8 @@ def compliance(model: Any, analysis: Analysis) -> list[State]:
 
 
 def require_no_torque(model: Any, state: State, released: Mapping[str, set[str]]) -> None:
-    """Raises Refused if a support holds one rotation by a moment: its effect on the other rotations is that of a joint of
-    Exudyn, and not included."""
+    """Raises Refused if a support fixes one rotation by a moment. The effect of such a moment on the other rotations is
+    that of a joint of Exudyn, and is not included."""
     largest = max((abs(x or 0) for values in state.reaction.values() for x in values[3:]), default=0.0)
     for name, items in model.held.items():
         left = [k for _, components in items for k in components if k > 2 and COMPONENTS[k] not in released.get(name, ())]

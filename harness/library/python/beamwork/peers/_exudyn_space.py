@@ -17,7 +17,8 @@ class Space(Steps):
     """Beams in space. Each end of a member has a node with the axes of its section; rigid joints connect the ends."""
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh, places: Sequence[tuple[Vector, Matrix]] = ()) -> None:
-        """places: positions and axes of the nodes of Exudyn in a reference state that differs from that of the scene."""
+        """Makes the model. places: positions and axes of the nodes of Exudyn in a reference state that differs from
+        that of the scene; empty: it does not differ."""
         super().__init__(scene, name, mesh)
         self.places = places
         self.ancf = name == "ancf_3d"
@@ -57,7 +58,8 @@ class Space(Steps):
         self.assemble((9 if self.ancf else 6) * len(self.frame) - joints)
 
     def _order(self, node: Node, released: Mapping[int, frozenset[str]]) -> None:
-        """Puts an end without hinge first, which stands for the node of the scene. If there is none, adds a node."""
+        """Moves an end without a hinge to the front, because the first node represents the node of the scene. If
+        all ends have hinges, adds a node."""
         numbers = sorted(self.of[node.name], key=lambda k: k in released)
         if numbers[0] in released:
             if _exudyn_motion.moves(self.scene):
@@ -141,7 +143,7 @@ class Space(Steps):
             self._turn(name, joint, axes)
 
     def _about_normal(self, axes: list[int]) -> bool:
-        """Returns True if the only held rotation is that in the plane in which the scene stays."""
+        """Returns True if the only fixed rotation is the rotation in the plane in which the structure stays."""
         normal = _motion.normal(self.scene)
         return normal is not None and sum(axes[3:]) == 1 and axes[3 + normal] == 1 and not _exudyn_motion.moves(self.scene)
 

@@ -19,8 +19,9 @@ L, E, G, A, I, IT, RHO = 1.0, 2e11, 8e10, 1e-2, 2e-6, 3e-6, 8000.0
 EA, EI, GIT, GA = E * A, E * I, G * IT, 1e7
 F = 1e3  # load of the scenes with small displacements
 FINE, WORKS = (16, 32), 0.01  # meshes; largest error with which a feature works
-_SHORT = re.compile(r": the (?:element|driver) of .* does not (?:model it|read this key).*")  # repeated in every cell of the table
-_HALVED = 0.7  # the error on the finer mesh, relative to that on the coarser one, is below this if the values converge
+# words that are repeated in every cell of the table and are therefore omitted
+_SHORT = re.compile(r": the (?:element|driver) of .* does not (?:model it|read this key).*")
+_HALVED = 0.7  # largest ratio of the error on the finer mesh to that on the coarser mesh for which values count as convergent
 
 Case = tuple[str, str, Callable[[], Scene], float]
 
@@ -114,7 +115,7 @@ def _flying() -> Scene:
 
 
 def _hinged() -> Scene:
-    """Two clamped bars that a hinge joins: each one carries half of the load."""
+    """Two clamped bars that a hinge connects; each bar carries half of the load."""
     made = _linear({"force": [0, F, 0]}, "uy")
     made.nodes["end"] = {"at": [2 * L, 0, 0], "hold": "all"}
     made.members["other"] = {"from_": "tip", "to": "end", "section": "bar", "y": [0, 1, 0], "release": {"from_": ["rz"]}}

@@ -1,4 +1,4 @@
-"""Released ends of members: which components they release, and which rotations of nodes nothing depends on."""
+"""Released ends of members: the components that they release, and the rotations of nodes that affect nothing."""
 from __future__ import annotations
 
 import dataclasses
@@ -10,8 +10,8 @@ from .data import COMPONENTS, Member, Mesh, Refused, Scene
 
 @dataclasses.dataclass(frozen=True)
 class Hinge:
-    """A released end. element: index in the mesh. end: 0 or 1. node: of the mesh. own: released components in the axes of the
-    member; components: in global axes."""
+    """A released end. element: index in the mesh. end: 0 or 1. node: index of the node in the mesh. own: released
+    components in the axes of the member. components: released components in global axes."""
     element: int
     end: int
     node: int
@@ -47,8 +47,8 @@ def hinges(scene: Scene, mesh: Mesh) -> list[Hinge]:
 
 
 def check_hinges(scene: Scene) -> None:
-    """Raises Refused if a release depends on large rotations in space, or on the axes of a curved member, or if drivers would
-    find critical loads that converge slowly or not at all."""
+    """Raises Refused if a release depends on large rotations in space, or on the axes of a curved member, or if critical
+    loads computed by drivers would converge slowly or not at all."""
     if any(a.kind == "buckling" for a in scene.analyses.values()) and any("release" in m.raw for m in scene.members.values()):
         raise Refused("release: drivers have no buckling analysis of members with hinges")
     small = all(a.kind == "linear" or (a.kind == "modal" and not a.about) for a in scene.analyses.values())
@@ -64,7 +64,7 @@ def check_hinges(scene: Scene) -> None:
 
 
 def idle(scene: Scene) -> Mapping[str, frozenset[str]]:
-    """Returns the free rotations of nodes to which all members have hinges: nothing depends on them."""
+    """Returns the free rotations of nodes to which all members are hinged, so that nothing depends on these rotations."""
     ends: dict[str, list[frozenset[str]]] = {}
     for member in scene.members.values():
         for end, node in enumerate(member.ends):

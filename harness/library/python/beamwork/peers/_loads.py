@@ -8,8 +8,9 @@ from .data import Load, Mesh, MeshElement, Refused, Scene, Vector, times
 
 _GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
 KEYS = frozenset({"loads.distributed", "loads.distributed_moment", "loads.from", "loads.to", "loads.to_value", "loads.lumped",
-                  "loads.where", "loads.gravity", "taper"})  # keys that `nodal` reads; tapered members need nothing of drivers
-THERMAL = frozenset({"loads.temperature", "loads.gradient"})  # and these, in linear analyses
+                  # keys that `nodal` supports; tapered members require no support by drivers
+                  "loads.where", "loads.gravity", "taper"})
+THERMAL = frozenset({"loads.temperature", "loads.gradient"})  # additional keys in linear analyses
 
 
 def _shapes(order: int, x: float) -> list[float]:
@@ -38,7 +39,7 @@ def vectors(load: Load) -> list[Vector]:
 
 
 def require_known(scene: Scene) -> None:
-    """Raises Refused if `nodal` does not know a load, or the load is a follower."""
+    """Raises Refused if `nodal` does not support a load, or if the load is a follower load."""
     for load in scene.loads:
         if load.follower:
             raise Refused("follower loads: this driver applies dead loads only")
@@ -47,7 +48,8 @@ def require_known(scene: Scene) -> None:
 
 
 def _thermal(load: Load, mesh: Mesh, scene: Scene) -> dict[int, list[float]]:
-    """Returns the forces and moments that stretch and bend unloaded elements as a change of temperature does."""
+    """Returns the forces and moments that cause the same elongation and curvature of unloaded elements as a
+    change of temperature."""
     out: dict[int, list[float]] = {}
     for e in filter(lambda one: acts(load, one), mesh.elements):
         s = e.member.section

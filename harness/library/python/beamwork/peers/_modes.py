@@ -93,7 +93,8 @@ def require_axial_loads(scene: Scene, mesh: Mesh, why: str) -> None:
 
 
 def require_still_springs(scene: Scene, mesh: Mesh) -> None:
-    """Raises Refused if loads before buckling may twist a rotational spring, whose moment would turn with the node in its own way."""
+    """Raises Refused if loads before buckling may twist a rotational spring, because the rotation of its moment with the node
+    would be that of the program's spring."""
     if any(any(s.stiffness[3:]) for s in scene.springs):
         require_axial_loads(scene, mesh, "drivers have rotational springs under axial loads only")
 
@@ -133,7 +134,7 @@ def _separated(frequencies: Sequence[float], moves: Any) -> Any:
 
 def families(mesh: Mesh, frequencies: Sequence[float], modes: Sequence[Any]) -> list[str]:
     """Returns the family of each mode: axial, bending_y, bending_z or torsion, by the largest sum of squares of motions.
-    modes: for each mode the components of all nodes of the mesh."""
+    modes: for each mode, the components of all nodes of the mesh."""
     import numpy as np  # pylint: disable=import-outside-toplevel
     both = [_measures(mesh, mode) for mode in modes]
     if not both:
@@ -170,8 +171,8 @@ def nodal_inertia(mesh: Mesh, of: Callable[[Section], Sequence[float]]) -> dict[
 
 
 def diagonal_inertia(mesh: Mesh, of: Callable[[Section], Sequence[float]], program: str) -> dict[int, list[float]]:
-    """Returns the moments of inertia of nodal_inertia about global axes, for a program that has no products of inertia.
-    Raises Refused if there are such."""
+    """Returns the moments of inertia of nodal_inertia about global axes, for a program that does not support products of
+    inertia. Raises Refused if a product of inertia is not zero."""
     out = nodal_inertia(mesh, of)
     for matrix in out.values():
         if max(abs(matrix[i][k]) for i in range(3) for k in range(i)) > 1e-9 * max(matrix[i][i] for i in range(3)):

@@ -13,7 +13,8 @@ from .data import (COMPONENTS, Analysis, Answer, Failed, Load, Mesh, Quantity, R
                    rotation_vector, times, transposed)
 
 Function = Callable[[float], float]
-NUMERICS = {"integrator", "step", "tolerance", "rho", "hht", "trapezoidal", "parameters", "mass"}  # settings of beamwork only
+# settings that only beamwork uses
+NUMERICS = {"integrator", "step", "tolerance", "rho", "hht", "trapezoidal", "parameters", "mass"}
 TAKES = ("last", "curve", "max", "min", "max_time", "min_time", "mean", "rms", "crossing")
 QUANTITIES = {"displacement": {"node", "component"}, "reaction": {"node", "component"}, "rate": {"node", "component", "of"},
               "relative": {"node", "from", "component"}, "energy": {"of"}}
@@ -111,7 +112,8 @@ def asked(scene: Scene) -> set[str]:
 
 
 def normal(scene: Scene) -> int | None:
-    """Returns the index of the global axis perpendicular to the plane of a scene that stays in a plane; None: it does not."""
+    """Returns the index of the global axis perpendicular to the plane in which a scene stays; None: the scene does not stay
+    in a plane."""
     for k in range(3):
         others = [i for i in range(3) if i != k]
         level = next(iter(scene.nodes.values())).at[k]
@@ -137,7 +139,8 @@ def start_velocity(analysis: Analysis, at: Vector) -> tuple[list[float], list[fl
 
 
 def lumped_mass(mesh: Mesh) -> list[float]:
-    """Returns the mass of the members at each node of the mesh: for 3 nodes by Simpson's rule."""
+    """Returns the mass of the members at each node of the mesh. The mass of elements with three nodes is divided by Simpson's
+    rule."""
     out = [0.0] * len(mesh.nodes)
     for element in mesh.elements:
         weights = (0.5, 0.5) if len(element.nodes) == 2 else (1 / 6, 2 / 3, 1 / 6)
@@ -207,7 +210,8 @@ def at_time(grid: Sequence[float], values: Sequence[float], t: float) -> float:
 
 
 def _extreme(grid: Sequence[float], values: Sequence[float], sign: float) -> tuple[float, float]:
-    """Returns the time and the value of the largest (sign 1) or smallest (-1) value, by a parabola between times."""
+    """Returns the time and the value of the largest (sign 1) or smallest (-1) value, interpolated by a parabola between
+    times."""
     k = max(range(len(values)), key=lambda i: sign * values[i])
     if not 0 < k < len(values) - 1:
         return grid[k], values[k]
@@ -255,7 +259,7 @@ def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[flo
 
 
 def refusal(q: Quantity) -> str:
-    """Returns why no driver computes the quantity of a motion; "": drivers may compute it."""
+    """Returns the reason why no driver computes the quantity of a motion; "": drivers may compute it."""
     if q.kind not in QUANTITIES or set(q.raw) - QUANTITIES[q.kind] - {"analysis", "take", "at"}:
         return f"{q.kind}: no driver computes this quantity"
     if q.raw.get("take", "last") not in TAKES or "quantity" in q.x:
@@ -302,8 +306,8 @@ def difference(scene: Scene, names: Sequence[str], a: Mapping[str, Any], b: Mapp
 
 
 def _bound(space: float | None) -> float:
-    """Returns the bound of the change of the values when the time step is halved. space: change from the mesh
-    before; None: unknown."""
+    """Returns the bound of the change of the values when the time step is halved. space: change from the previous mesh; None:
+    unknown."""
     return _FIRST_BOUND if space is None else min(max(0.03 * space, LEAST), MOST)
 
 
@@ -311,8 +315,8 @@ def refined(steps: dict[str, float], solved: Callable[[dict[str, float]], dict[s
             differ: Callable[[Mapping[str, Any], Mapping[str, Any]], float], before: Mapping[str, Any],
             limit: float) -> tuple[dict[str, float], str, dict[str, Any]]:
     """Halves the time steps until the values change by less than a bound. Returns the steps, a sentence about them, and the
-    values. solved: the values with given steps; differ: their relative difference. before: the values of the mesh before; may
-    be empty. limit: longest time [s]."""
+    values. solved: the values with given steps; differ: their relative difference. before: the values of the previous mesh;
+    may be empty. limit: longest time [s]."""
     begun, last, failures, change = time.perf_counter(), dict[str, Any](), 0, math.inf
     while True:
         start, found = time.perf_counter(), dict[str, Any]()

@@ -7,7 +7,8 @@ from typing import Any
 from ._modes import critical_factors, require_still_springs
 from .data import Answer, Failed, Refused
 
-_FIRST, _SECOND = 1e-6, 1e-3  # largest displacement/length or rotation under the first loads; second/critical loads
+# largest displacement divided by the length, or rotation, under the first loads; ratio of the second to the critical loads
+_FIRST, _SECOND = 1e-6, 1e-3
 
 
 def _moved(model: Any, path: float) -> dict[int, list[float]]:

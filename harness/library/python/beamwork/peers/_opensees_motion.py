@@ -1,5 +1,5 @@
-"""Motions of OpenSees' models: Newmark's method (the trapezoidal rule) with lumped masses. With HHT, driven nodes would be at
-the places of an earlier time at the end of a step."""
+"""Motions of OpenSees' models: Newmark's method (the trapezoidal rule) with lumped masses. With HHT, driven nodes would lag
+their prescribed displacements at the end of a step."""
 from __future__ import annotations
 
 import math
@@ -23,7 +23,7 @@ def _tolerance(length: float) -> float:
 
 
 def _bodies(node: Node) -> list[float]:
-    """Returns the mass of a node three times, and its moments of inertia about x, y, z."""
+    """Returns the mass of a node for each of the three translations, and its moments of inertia about x, y, z."""
     xx, yy, zz, *products = node.raw.get("inertia", (0.0, ) * 6)
     if any(products):
         raise Refused(f"inertia: nodes of OpenSees have no products of inertia ({node.name})")

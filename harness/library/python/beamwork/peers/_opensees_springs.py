@@ -24,8 +24,8 @@ def add_springs(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] 
 
 
 def add_hinges(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] | None) -> list[list[int]]:
-    """Adds a node for each released end of a member, whose other components are those of the node there. Returns the nodes of all
-    elements."""
+    """Adds a node for each released end of a member. The components of this node that are not released equal those of the node
+    to which the member is connected. Returns the nodes of all elements."""
     out = [list(e.nodes) for e in mesh.elements]
     for i, hinge in enumerate(hinges(scene, mesh)):
         number = len(mesh.nodes) + len(scene.springs) + i
@@ -39,8 +39,8 @@ def add_hinges(ops: Any, scene: Scene, mesh: Mesh, moved: Mapping[int, Vector] |
 
 
 def reactions(ops: Any, scene: Scene, mesh: Mesh) -> dict[str, list[float]]:
-    """Returns the reactions at the nodes of the scene, with the forces of released ends, which the program gives at nodes of their
-    own."""
+    """Returns the reactions at the nodes of the scene, including the forces of released ends, which the program reports at
+    separate nodes."""
     out = {name: [float(x) for x in ops.nodeReaction(number)] for name, number in mesh.node_of.items()}
     for i, hinge in enumerate(hinges(scene, mesh)):
         more = ops.nodeReaction(len(mesh.nodes) + len(scene.springs) + i)

@@ -1,6 +1,6 @@
 """Follows an equilibrium path by control of one coordinate: limit points of the load factor, and states at values of the
-control coordinate of the scene. The controlled coordinate is the one that moved most in the last step, so that the path may
-turn back in any other coordinate."""
+control coordinate of the scene. The controlled coordinate is the one that moved most in the last step, so the path may
+reverse its direction in any other coordinate."""
 from __future__ import annotations
 
 import math
@@ -9,17 +9,18 @@ from typing import Any
 
 from .data import COMPONENTS, Analysis, Answer, Failed, MeshNode, PathPoint, Refused, Scene
 
-_STEPS = (0.1, 0.07, 0.05, 0.035, 0.025, 0.0125)  # largest displacement in a step, over the length of the longest member
+_STEPS = (0.1, 0.07, 0.05, 0.035, 0.025, 0.0125)  # largest displacement in a step, divided by the length of the longest member
 _LEAST, _MOST_POINTS, _MOST_REFINEMENTS = 1e-4, 2000, 6
-_FIRST_FACTOR = 1e-3  # change of the load factor that gives the first slope of the reaction
-_MOST_SECANTS, _BALANCED = 10, 1e-9  # most solutions for one point; reaction that counts as zero, over the largest reaction
-_APART = 1e-4  # least distance of points for an interpolation, over the length
-_SAME = 1e-6  # change of a coordinate at a limit point, over the length, that ends its refinement
+_FIRST_FACTOR = 1e-3  # change of the load factor with which the first slope of the reaction is computed
+# largest number of solutions for one point; reaction that counts as zero, relative to the largest reaction
+_MOST_SECANTS, _BALANCED = 10, 1e-9
+_APART = 1e-4  # smallest distance of points for an interpolation, divided by the length
+_SAME = 1e-6  # change of a coordinate at a limit point, divided by the length, at which its refinement ends
 _TURN = 0.7  # cosine of the largest angle between successive steps
 
 
 class Path:
-    """What a driver implements. places: free translations (node of the scene, component), the first of which is the control
+    """Interface of a driver. places: free translations (node of the scene, component), the first of which is the control
     coordinate of the scene."""
     places: Sequence[tuple[str, int]] = ()
 
@@ -28,8 +29,8 @@ class Path:
         raise NotImplementedError
 
     def move(self, place: int, value: float) -> int:
-        """Changes the load factor so that a coordinate has this value. Returns the number of equation systems solved, or
-        minus this number if there is no solution; the structure is then in its former state."""
+        """Changes the load factor so that a coordinate has this value. Returns the number of equation systems that were
+        solved. If there is no solution, returns minus this number and restores the former state."""
         raise NotImplementedError
 
     def point(self) -> PathPoint:
@@ -37,27 +38,27 @@ class Path:
 
 
 class HeldPath(Path):
-    """For programs without displacement control: a support holds the coordinate, and the load factor is sought for which the
-    support has no reaction."""
+    """Displacement control for programs that do not provide it: a support fixes the coordinate, and a search finds the
+    load factor for which the reaction of the support is zero."""
     factor = largest = 0.0
 
     def __init__(self) -> None:
-        self.rates: dict[int, float] = {}  # of the reaction over the load factor
+        self.rates: dict[int, float] = {}  # slope of the reaction as a function of the load factor
 
     def hold(self, place: int, value: float) -> None:
         """Supports a coordinate, and no other, at a value."""
         raise NotImplementedError
 
     def save(self) -> Any:
-        """Returns the state of the structure for `restore`."""
+        """Returns the state of the structure, for `restore`."""
         raise NotImplementedError
 
     def restore(self, saved: Any) -> None:
         raise NotImplementedError
 
     def reaction(self, place: int, factor: float) -> tuple[int, float | None]:
-        """Solves with a load factor. Returns the number of equation systems and the reaction of the support; None: not
-        solved, and the structure is in its former state."""
+        """Solves with a load factor. Returns the number of equation systems and the reaction of the support. If there is
+        no solution, restores the former state and returns None."""
         raise NotImplementedError
 
     def reach(self, place: int, begin: float, value: float, factor: float, halvings: int = 4) -> tuple[int, float | None]:
@@ -140,7 +141,8 @@ def _slope(points: Sequence[tuple[float, float]], x: float) -> float:
 
 
 def _extremum(points: Sequence[tuple[float, float]]) -> float:
-    """Returns where the polynomial through the points has its extremum, between the neighbours of the extreme point."""
+    """Returns the position of the extremum of the polynomial through the points, between the neighbours of the extreme
+    point."""
     known = sorted(points)
     sign = 1 if known[1][1] > known[0][1] else -1
     middle = max(range(1, len(known) - 1), key=lambda i: sign * known[i][1])
@@ -153,7 +155,7 @@ def _extremum(points: Sequence[tuple[float, float]]) -> float:
 
 
 class _Walk:
-    """The path with a given largest step."""
+    """A path that is followed with a given largest step."""
 
     def __init__(self, path: Path, analysis: Analysis, length: float, size: float) -> None:
         self.path, self.size, self.length = path, size * length, length
@@ -163,7 +165,7 @@ class _Walk:
         self.points = [path.point()]
 
     def move(self, place: int, value: float) -> PathPoint | None:
-        """Returns the point where a coordinate has this value; None: not found."""
+        """Returns the point at which a coordinate has this value; None: no such point was found."""
         spent = self.path.move(place, value)
         self.iterations += abs(spent)
         return self.path.point() if spent > 0 else None
@@ -175,7 +177,8 @@ class _Walk:
         return point
 
     def attempt(self, place: int, step: float, before: Sequence[float]) -> PathPoint | None:
-        """Makes a step. Returns to its start and returns None if it is too long: if the path turns too far or jumps."""
+        """Makes a step. If the path turns too far or jumps, the step is too long: then restores the start of the step
+        and returns None."""
         here = self.points[-1]
         after = self.move(place, here.values[place] + step)
         if after is None:
@@ -222,7 +225,8 @@ class _Walk:
         return Answer([p.state for p in self.found], path=self.points, stops=self.found, iterations=self.iterations)
 
     def stop_at_target(self) -> PathPoint | None:
-        """If the last step passed the next value of the control coordinate, replaces its end by the point there."""
+        """If the last step passed the next value of the control coordinate, replaces the end of the step by the point
+        with this value."""
         begin, end = (p.values[0] for p in self.points[-2:])
         if not min(begin, end) <= self.targets[0] <= max(begin, end) or begin == self.targets[0]:
             return None
@@ -231,7 +235,8 @@ class _Walk:
         return self.points[-1]
 
     def refine_limit(self, place: int) -> None:
-        """If the load factor has an extremum within the last two steps, ends the path there for now."""
+        """If the load factor has an extremum within the last two steps, replaces the points beyond the extremum by the
+        extremum, from which the path continues."""
         three = self.points[-3:]
         if len(three) < 3 or three[1].limit or (three[1].factor - three[0].factor) * (three[2].factor - three[1].factor) >= 0:
             return
@@ -251,12 +256,12 @@ class _Walk:
         self.points.append(best)
 
 
-_known: dict[tuple[str, str, int, str], float] = {}  # largest steps with which paths were followed
+_known: dict[tuple[str, str, int, str], float] = {}  # largest steps with which each path was followed
 
 
 def follow(path: Path, analysis: Analysis, scene: Scene, mesh: tuple[str, int]) -> Answer:
-    """Follows a path from the undeformed structure; if this fails, again in smaller steps. Later rounds begin with the steps
-    that succeeded in the first one. mesh: name and number of elements."""
+    """Follows a path from the undeformed structure, and repeats this with smaller steps if it fails. Later rounds begin
+    with the steps that succeeded in the first round. mesh: name and number of elements."""
     key, why = (scene.of, *mesh, analysis.name), Failed("")
     for size in [step for step in _STEPS if step <= _known.get(key, math.inf)]:
         try:

@@ -7,7 +7,7 @@ from typing import Any
 from . import _motion
 from .data import Analysis, Answer, Failed, Load, Scene, State, rotation_vector
 
-_STEP = 0.5  # largest time step times the highest frequency
+_STEP = 0.5  # product of the largest time step and the highest frequency
 _SAMPLES = 400
 
 
@@ -30,7 +30,7 @@ def set_masses(model: Any, rod: Any) -> None:
 
 
 def fixed(scene: Scene, held: frozenset[str]) -> str:
-    """Returns how an end is held: clamped, pinned or free; "": in another way."""
+    """Returns the support of an end: clamped, pinned or free; "": another support."""
     k = _motion.normal(scene)
     if not held:
         return "free"

@@ -1,4 +1,5 @@
-"""Which program reaches an error in the least time, and with which work: from the record of a comparison (_record.py)."""
+"""Ranks the programs of a recorded comparison (_record.py) by the time in which they reach an error, and states their
+work."""
 from __future__ import annotations
 
 import math
@@ -22,8 +23,8 @@ def meshes(series: Mapping[str, Any], quantity: str) -> list[dict[str, Any]]:
 
 
 def coarsest(series: Mapping[str, Any], quantity: str, level: float) -> dict[str, Any] | None:
-    """Returns the coarsest run whose error, with the errors of all finer ones, is at most `level`; None: there is none, or
-    the limit is known to differ by more."""
+    """Returns the coarsest run such that its error and the errors of all finer runs are at most `level`; None: there is none,
+    or the limit is known to differ by more than `level`."""
     found = None
     for run in reversed(meshes(series, quantity)):
         if abs(run["errors"][quantity]) > level:
@@ -67,7 +68,7 @@ def _why_not(series: Mapping[str, Any], quantity: str, level: float) -> str:
 
 
 def _reason(first: Mapping[str, Any], ours: Mapping[str, Any] | None) -> str:
-    """Returns why the first row, a peer, is ahead of the best row of beamwork."""
+    """Returns the reason why the first row, which is that of a peer, is faster than the best row of beamwork."""
     if ours is None:
         return "no formulation of beamwork reaches this error on these meshes"
     parts = [f"{first[key]} {word} against {ours[key]}" for key, word in

@@ -89,8 +89,8 @@ def _quantities(scene: Mapping[str, Any], judged: Sequence[Mapping[str, Any]]) -
 
 def make(scene: Mapping[str, Any], found: Sequence[Series], imports: str, case: Sequence[object],
          options: Mapping[str, Any], rounds: int) -> dict[str, Any]:
-    """Returns the record. imports: the results of the peers as an import file. The unit of time is the fastest run of a
-    formulation or, if there is none, of a peer; "seconds" of the unit is not in recorded files."""
+    """Returns the record. imports: the results of the peers as an import file. The unit of time is the fastest run
+    of a formulation or, if there is none, of a peer. Recorded files do not contain the "seconds" of the unit."""
     timed = [(not one.peer, run["times"][""], one.program, run["elements"]) for one in found for run in one.runs if "values" in run]
     if not timed:
         raise Refused("no program solved the case")

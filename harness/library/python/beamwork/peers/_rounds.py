@@ -18,7 +18,7 @@ from ._clock import least
 
 _PACKAGE = __name__.rpartition(".")[0]
 _FOLDER = pathlib.Path(__file__).resolve().parents[2]
-_ENOUGH = 2.0  # [s] no further rounds of a mesh after this time
+_ENOUGH = 2.0  # [s] time after which no further rounds of a mesh are run
 
 
 @dataclasses.dataclass
@@ -35,7 +35,7 @@ class Series:
 
 
 class _Lost(Exception):
-    """The process ended or gave no answer in time."""
+    """Raised if the process ended or did not answer in time."""
 
 
 class _Process:
@@ -60,7 +60,8 @@ class _Process:
             pass  # hear() reports the reason
 
     def hear(self, limit: float) -> Any:
-        """Returns the next answer. Raises TimeoutError if it takes longer than `limit` seconds, _Lost if there is none."""
+        """Returns the next answer. Raises TimeoutError if the answer takes longer than `limit` seconds, and _Lost if the
+        process has ended."""
         assert self.process.stdout is not None
         until = time.monotonic() + limit
         with selectors.DefaultSelector() as wait:

@@ -9,12 +9,13 @@ from typing import Any
 from ._modes import critical_factors, require_axial_loads, require_still_springs
 from .data import Answer, Failed, MeshElement, Refused, Vector, cross, transposed
 
-_FIRST, _SECOND = 1e-6, 3e-3  # the first displacement over the length or rotation; the second load over the critical one
+# first displacement divided by the length, or first rotation; ratio of the second load to the critical load
+_FIRST, _SECOND = 1e-6, 3e-3
 
 
 def moved_axis(e: MeshElement, moved: Mapping[int, Vector]) -> tuple[list[float], float]:
-    """Returns the z axis of an element that is turned with its nodes, and its length over the
-    former one, by which stiffnesses are multiplied so that those of the element are the same."""
+    """Returns the z axis of an element that rotates with its nodes, and the ratio of its new length to its initial
+    length. Multiplying the stiffnesses of the section by this ratio keeps those of the element."""
     u, v = moved[e.nodes[0]], moved[e.nodes[-1]]
     z = transposed(e.R)[2]
     z = [a + (b + c) / 2 for a, b, c in zip(z, cross(u[3:], z), cross(v[3:], z))]
@@ -22,8 +23,8 @@ def moved_axis(e: MeshElement, moved: Mapping[int, Vector]) -> tuple[list[float]
 
 
 def _tangent(owner: Any, model: Any, path: float) -> tuple[Any, dict[int, list[float]]]:
-    """Applies the loads times `path`. Returns the tangent by nodes and components, and the
-    displacements and rotations of nodes."""
+    """Applies the loads multiplied by `path`. Returns the tangent by nodes and components, and the displacements and
+    rotations of nodes."""
     import numpy as np
 
     owner.drives.clear()

@@ -13,16 +13,16 @@ Matrix = Sequence[Sequence[float]]
 
 
 class Refused(Exception):
-    """A peer cannot express a part of the scene. The text names this part, then the reason: "warping: ..."."""
+    """Raised if a peer does not support a part of the scene. The text names this part, then the reason: "warping: ..."."""
 
 
 class Failed(Exception):
-    """A peer did not find a solution."""
+    """Raised if a peer found no solution."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Element:
-    """An element of a peer. offers: the physics it models, in the words of the protocol. analyses: keys of scene files.
+    """An element of a peer. offers: the physics that it models, in the words of the protocol. analyses: keys of scene files.
     order: number of nodes minus 1. keys: "nodes.mass", "members.release" and others that the driver reads in `raw`."""
     summary: str
     offers: frozenset[str] = frozenset()
@@ -33,7 +33,7 @@ class Element:
 
 @dataclasses.dataclass(frozen=True)
 class Node:
-    """hold: fixed components. drive: {component: name of the motion}."""
+    """A node of the scene. hold: fixed components. drive: {component: name of the motion}."""
     name: str
     at: Vector
     hold: frozenset[str]
@@ -56,8 +56,8 @@ class Section:
     rho_I: tuple[float, float, float]
 
     def stiffness(self, most: float = math.inf) -> list[list[float]]:
-        """Returns the matrix from (gx, gy, gz, kx, ky, kz) to (N, Qy, Qz, Mx, My, Mz) about the centroid. most: replaces
-        infinite shear stiffnesses."""
+        """Returns the matrix that maps (gx, gy, gz, kx, ky, kz) to (N, Qy, Qz, Mx, My, Mz) about the centroid. most: value that
+        replaces infinite shear stiffnesses."""
         if "stiffness" in self.raw:
             return [list(row) for row in self.raw["stiffness"]]
         diagonal = (self.EA, *(min(k, most) for k in self.GA), self.GIt, self.EIy, self.EIz)
@@ -66,8 +66,8 @@ class Section:
 
 @dataclasses.dataclass(frozen=True)
 class Member:
-    """A line of constant curvature [1/m, in section axes] from `start`. axes: columns x, y, z at the start. taper: sections
-    along a tapered member; may be empty."""
+    """A member: a line of constant curvature [1/m, in section axes] from `start`. axes: x, y, z at the start in columns. taper:
+    sections along a tapered member; empty: the section is constant."""
     name: str
     ends: tuple[str, str]
     section: Section
@@ -79,7 +79,8 @@ class Member:
     taper: tuple[Section, ...] = ()
 
     def section_at(self, x: float) -> Section:
-        """Returns the section at a fraction of the length, by a cubic between those of `taper`, which are at equal distances."""
+        """Returns the section at a fraction of the length, interpolated by a cubic between the equally spaced sections of
+        `taper`."""
         last = len(self.taper) - 1
         first = min(max(math.floor(x * last) - 1, 0), last - 3)
         weights = [math.prod((x * last - j) / (i - j) for j in range(first, first + 4) if j != i) for i in range(first, first + 4)]
@@ -110,7 +111,8 @@ class Member:
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """kind: force, moment, distributed, ... vector: its value at the factor 1. node or member: where it acts."""
+    """A load. kind: force, moment, distributed, ... vector: value for the factor 1. node, member: the load acts on one of the
+    two; the other is None."""
     name: str
     kind: str
     vector: Vector
@@ -122,8 +124,8 @@ class Load:
 
 @dataclasses.dataclass(frozen=True)
 class Spring:
-    """Connects a node with the ground (begin is None) or with another node at the same place. stiffness: of the six components [N/m,
-    N m]."""
+    """A spring between a node and the ground (begin is None) or another node at the same position. stiffness: stiffnesses of the
+    six components [N/m, N m]."""
     name: str
     begin: str | None
     end: str
@@ -132,8 +134,8 @@ class Spring:
 
 @dataclasses.dataclass(frozen=True)
 class Analysis:
-    """kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state. step: largest time
-    step of a motion [s]; the driver divides the time up to the last station equally."""
+    """An analysis. kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state. step:
+    largest time step of a motion [s]; the driver divides the time up to the last station equally."""
     name: str
     kind: str
     stations: tuple[float, ...]
@@ -144,7 +146,8 @@ class Analysis:
 
 @dataclasses.dataclass(frozen=True)
 class Quantity:
-    """value = factor * what is extracted + offset. raw_entry: the whole entry of the file; raw: the part named `kind`."""
+    """A quantity. Its value is the extracted value times `factor`, plus `offset`. raw_entry: the whole entry of the file;
+    raw: the part named `kind`."""
     name: str
     kind: str
     analysis: str
@@ -158,7 +161,7 @@ class Quantity:
 
 @dataclasses.dataclass(frozen=True)
 class MeshNode:
-    """name: the node of the scene, or None inside a member."""
+    """A node of the mesh. name: the node of the scene, or None inside a member."""
     number: int
     name: str | None
     at: Vector
@@ -166,8 +169,9 @@ class MeshNode:
 
 @dataclasses.dataclass(frozen=True)
 class MeshElement:
-    """nodes: order + 1 numbers along the member. R: columns x (along the chord), y, z. frames: axes at each node on the
-    line of the member. length: along the line. begin, end: as fractions of the member."""
+    """An element of the mesh. nodes: the order + 1 node numbers along the member. R: axes x (along the chord), y and z in
+    columns. frames: axes of the member at each node. length: length along the line of the member. begin, end: ends of the
+    element as fractions of the member."""
     member: Member
     nodes: tuple[int, ...]
     R: Matrix
@@ -179,7 +183,7 @@ class MeshElement:
 
 @dataclasses.dataclass(frozen=True)
 class Mesh:
-    """The nodes of the scene come first, in their order."""
+    """A mesh. The nodes of the scene come first, in the order of the scene."""
     nodes: tuple[MeshNode, ...]
     elements: tuple[MeshElement, ...]
     node_of: Mapping[str, int]
@@ -187,10 +191,10 @@ class Mesh:
 
 @dataclasses.dataclass
 class State:
-    """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components,
-    for each node of the scene. None: the program does not compute it. compliance: 6 x 6 matrix of the node of a
-    compliance analysis. In motions, rate: velocities along fixed axes, and angular velocities along the axes of
-    the node; energy: the energies by the names kinetic, strain and energy (their sum)."""
+    """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components, for each
+    node of the scene. A value that the program does not compute is None. compliance: 6 x 6 matrix of the node of a
+    compliance analysis. In motions, rate: velocities along fixed axes, and angular velocities along the axes of the node;
+    energy: the energies by the names kinetic, strain and energy (their sum)."""
     u: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     reaction: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     compliance: Sequence[Sequence[float | None]] | None = None
@@ -200,8 +204,8 @@ class State:
 
 @dataclasses.dataclass
 class PathPoint:
-    """A point of an equilibrium path. values: coordinates that describe the path, the control coordinate first. limit: the
-    load factor has an extremum here."""
+    """A point of an equilibrium path. values: coordinates that describe the path, the control coordinate first. limit: True
+    if the load factor has an extremum at the point."""
     factor: float
     values: Sequence[float]
     state: State
@@ -210,10 +214,10 @@ class PathPoint:
 
 @dataclasses.dataclass
 class Answer:
-    """The states at the stations of an analysis (linear: one) or, in motions, at `times`; critical factors or frequencies
-    [Hz] in ascending order, with a zero for each rigid-body motion. families: of the modes, from _modes.py; may be empty.
-    iterations: number of equation systems solved. A continuation has its path and, in `stops`, the points at the values
-    of the control coordinate."""
+    """Results of an analysis: the states at its stations (linear: one state) or, in motions, at `times`; critical factors or
+    frequencies [Hz] in ascending order, with a zero for each rigid-body motion. families: families of the modes, from
+    _modes.py; may be empty. iterations: number of equation systems solved. A continuation has its path and, in `stops`, the
+    points at the values of the control coordinate."""
     states: Sequence[State] = ()
     factors: Sequence[float] = ()
     frequencies: Sequence[float] = ()
@@ -225,12 +229,13 @@ class Answer:
 
 
 class Model:
-    """A model of a peer. unknowns: free degrees of freedom. settings: solver, tolerance, steps and what is made rigid."""
+    """A model of a peer. unknowns: number of free degrees of freedom. settings: text on the solver, the tolerance, the steps
+    and the parts that are made rigid."""
     unknowns: int = 0
     settings: str = ""
 
     def solve(self, analysis: Analysis) -> Answer:
-        """Called once for each analysis, in the order of the scene, while the clock runs."""
+        """Solves an analysis. Called once for each analysis, in the order of the scene, while time is measured."""
         raise NotImplementedError
 
 
@@ -256,8 +261,8 @@ class LoadSteps:
             raise Failed(f"Newton's method does not converge after path parameter {sum(self.taken):g}")
 
     def done(self, step: float, turn: float) -> None:
-        """Records a step that succeeded. turn: largest rotation of a node in the step [rad]. Raises Failed if it is so large
-        that the structure jumped."""
+        """Records a step that succeeded. turn: largest rotation of a node in the step [rad]. Raises Failed if this rotation
+        is so large that the structure jumped to another equilibrium."""
         self.taken.append(step)
         if turn > self._JUMP:
             raise Failed(f"a node turns by {turn:.2g} rad in the step to path parameter {sum(self.taken):g}: Newton's method found "
@@ -268,7 +273,8 @@ class LoadSteps:
 
 @dataclasses.dataclass(frozen=True)
 class Scene:
-    """What `beamwork scene --format json` writes; raw: all of it. of: name of the case with parameters, for an import."""
+    """A scene as `beamwork scene --format json` writes it. raw: all of its data. of: name of the case with its parameters,
+    for an import."""
     name: str
     of: str
     physics: frozenset[str]
@@ -285,7 +291,7 @@ class Scene:
     springs: tuple[Spring, ...] = ()
 
     def held_at(self, node: MeshNode) -> set[str]:
-        """Returns the fixed components of a node of the mesh; in a plane scene, also those out of the plane."""
+        """Returns the fixed components of a node of the mesh, which include those out of the plane of a plane scene."""
         held = set(self.nodes[node.name].hold) if node.name is not None else set()
         if self.plane is not None:
             normal = ({"x", "y", "z"} - set(self.plane)).pop()
@@ -298,15 +304,15 @@ class Scene:
         return path
 
     def motion_value(self, name: str, path: float) -> float:
-        """Returns the value of a prescribed motion at a path parameter. Functions of time are 0 there (see read.py)."""
+        """Returns the value of a prescribed motion at a path parameter. Functions of time are 0 (see read.py)."""
         motion = self.motions[name]
         if "path" not in motion:
             return 0.0
         return interpolated(motion["path"], motion["value"], path)
 
     def require_released(self, analysis: Analysis) -> None:
-        """Raises Refused unless the components that a compliance analysis releases are the driven ones of its node. For
-        drivers that free all of these, and no others."""
+        """Raises Refused unless a compliance analysis releases exactly the driven components of its node. Drivers that can
+        release only these components call this function."""
         node, released = self.nodes[analysis.raw["node"]], set(analysis.raw.get("released", ()))
         if released != set(node.drive):
             raise Refused(f"released: the driver frees the driven components of {node.name}, and no others")

@@ -31,11 +31,11 @@ ELEMENTS = {
 }
 
 _TOLERANCE = 1e-10
-_ROUND_OFF = 1e-14  # absolute tolerance of rotations, and of displacements over the length
+_ROUND_OFF = 1e-14  # absolute tolerance of rotations, and of displacements divided by the length
 _MOST_ITERATIONS = 100
 _LEAST_STEP = 1 / 64
 _TURN = 0.5  # [rad] largest rotation of a node in a step; with a larger one, Newton's method may find another equilibrium
-_STEPS: dict[tuple[str, int, str], int] = {}  # steps between stations that converged last
+_STEPS: dict[tuple[str, int, str], int] = {}  # last numbers of steps between stations with which paths converged
 
 
 def version() -> str:
@@ -112,8 +112,8 @@ class Frame(Model):
         p.SetValue(km.CONSTITUTIVE_LAW, sm.LinearElastic3DLaw())
 
     def new(self, element: str, moved: Mapping[int, Vector] | None = None) -> Any:
-        """Makes a model. moved: displacements and rotations of nodes; each element then has its own
-        two nodes, is turned with them, and has neither stresses nor another length."""
+        """Makes a model. moved: displacements and rotations of nodes. Each element then has two separate nodes
+        and rotates with them, without stresses and without a change of length."""
         km, sm = self.km, self.sm
         self.owner = km.Model()  # owns the model part
         part = self.owner.CreateModelPart("beams", 2)
@@ -210,7 +210,8 @@ class Frame(Model):
             part.Nodes[number + 1].SetSolutionStepValue(self.displacements[dof], 0, value)
 
     def run(self, part: Any, strategy: Any, loads: Any, drives: Any, check: bool = True, few: bool = False) -> bool:
-        """Returns True if the state converged and is balanced. few: it need only be balanced."""
+        """Returns True if the state has converged and is in equilibrium. few: True if only equilibrium is
+        required."""
         self._set(part, loads, drives)
         try:
             strategy.InitializeSolutionStep()
@@ -222,8 +223,8 @@ class Frame(Model):
         return (bool(converged) or few) and (not check or self._balanced(part, loads))
 
     def _balanced(self, part: Any, loads: Any) -> bool:
-        """Checks that reactions and loads are in balance: the criterion of increments also
-        accepts states that are not in equilibrium, and NaN."""
+        """Checks that reactions and loads are in equilibrium, because the criterion of increments also accepts
+        NaN and states that are not in equilibrium."""
         sums, sizes = [0.0] * 3, 1e-300
         length = self.scene.length()
         for vector in loads.values():
@@ -273,7 +274,7 @@ class Frame(Model):
                 raise Failed("Newton's method fails or leaves loads and reactions unbalanced")
 
     def _walk(self, part: Any, analysis: Analysis, steps: int) -> Answer | None:
-        """Follows the path; None: a step fails. A failed step cannot be repeated from its start,
+        """Follows the path. Returns None if a step fails. A failed step cannot be repeated from its start,
         because elements keep their rotations."""
         strategy = self.strategy(part, linear=False)
         loads: dict[int, list[float]] = {}
@@ -376,8 +377,8 @@ class Frame(Model):
         return Answer(states=[self._linear_state(part, loads, stiffness)], iterations=1)
 
     def _linear_state(self, part: Any, loads: dict[int, list[float]], stiffness: Any) -> State:
-        """Returns the state, with reactions from the stiffness matrix of the undeformed elements: those of the program
-        are not proportional to the loads."""
+        """Returns the state, with reactions computed from the stiffness matrix of the undeformed elements,
+        because those of the program are not proportional to the loads."""
         import numpy as np
 
         nodes = range(1, len(self.mesh.nodes) + 1)

@@ -25,7 +25,7 @@ ELEMENTS = {
 }
 _RIGID = 1e6  # shear stiffness of sections that are rigid in shear, over EI/length^2
 _MOST = 1536  # steps of a path
-_SHORT = 1e-6  # duration of a step in which nothing moves, over that between stations
+_SHORT = 1e-6  # duration of a step in which nothing moves, relative to the time between stations
 _Rows = list[dict[int, list[float]]]
 _Tangent = tuple[float, list[tuple[int, int, float]]]  # factor of stiffnesses, and entries of the matrix
 _known: dict[tuple[str, str, int, str], int] = {}  # steps between stations with which paths were solved
@@ -82,7 +82,7 @@ class Beams(Model):
         return number if to is None else self._owner(self.mesh.node_of[to])
 
     def _held(self, node: Node) -> int:
-        """Returns the number of components that the joint at a node holds, and checks them."""
+        """Checks the components that the joint at a node fixes, and returns their number."""
         if not self._components(node):
             return 0
         if "part_of" in node.raw:
@@ -225,8 +225,8 @@ class Beams(Model):
         return Answer(states, iterations=iterations)
 
     def _output(self, steps: int, curve: _Curve) -> tuple[_Rows, _Rows, list[_Tangent], int] | None:
-        """Runs the program. Returns the rows of nodes and joints after each step, the tangents at the stations, if the curve
-        has pauses, and the number of equation systems; None: it does not converge."""
+        """Runs the program. Returns the rows of nodes and joints after each step, the tangents at the stations if the curve
+        has pauses, and the number of equation systems; None: the run did not converge."""
         count = len(curve.stations[1:]) * (steps + (curve.pause > 0))
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "deck").write_text(self._deck(steps, curve), encoding="ascii")
@@ -297,7 +297,7 @@ class _Curve:
     on."""
 
     def __init__(self, scene: Scene, stations: Sequence[float], pause: float = 0.0, loaded: bool = True) -> None:
-        """pause: time after each station in which loads and motions do not change."""
+        """Makes the functions. pause: time after each station in which loads and motions do not change."""
         self.scene, self.stations, self.pause, self.loaded = scene, [0.0, *stations], pause, loaded
 
     def times(self, steps: int) -> str:

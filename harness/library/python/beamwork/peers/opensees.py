@@ -48,15 +48,15 @@ def version() -> str:
 
 
 def _shear_modulus(section: Section) -> float:
-    """Returns G for which G J is the torsional stiffness and J/A times the mass the inertia in torsion, as the elements
-    with a consistent mass assume."""
+    """Returns G for which G J is the torsional stiffness and J/A times the mass the inertia in torsion, as elements
+    with consistent mass assume."""
     if section.rho_I[0] == 0 or section.rho_A == 0:
         return float(section.raw["G"])
     return section.GIt * section.rho_A / (section.rho_I[0] * section.EA / float(section.raw["E"]))
 
 
 class Corotational(Model):
-    """The model, at path parameter 0. Loads and motions are series over the path."""
+    """A model of OpenSees, initially at path parameter 0. Loads and motions are series over the path."""
 
     most_iterations = 30
 
@@ -81,7 +81,7 @@ class Corotational(Model):
             ops.node(node.number, *(a + b for a, b in zip(node.at, moved[node.number] if moved else (0, 0, 0))))
         for i, section in enumerate(scene.sections.values(), 1):
             self._add_section(i, section, name, 1.0)
-        self.base = ""  # the analysis whose last state the model is in
+        self.base = ""  # the analysis in whose last state the model is
         tags = {section: i for i, section in enumerate(scene.sections, 1)}
         ends = add_hinges(ops, scene, mesh, moved)
         for i, element in enumerate(mesh.elements, 1):
@@ -170,7 +170,8 @@ class Corotational(Model):
             return answer
         if self.base or self.linear != (analysis.kind == "linear"):
             self.build(analysis.kind == "linear")
-        if analysis.kind == "linear" and not self.name.startswith("force"):  # whose element loads act fully after an iteration
+        # elements with "force" in their name need an iteration before element loads act fully
+        if analysis.kind == "linear" and not self.name.startswith("force"):
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
         states, iterations, path = [], 0, 0.0
@@ -276,7 +277,7 @@ class Corotational(Model):
         return Answer(frequencies=found, families=families(self.mesh, found, list(shapes)), iterations=1)
 
     def _add_inertia(self) -> None:
-        """Adds bodies to the nodes, and the rotary inertia that the elements lack."""
+        """Adds bodies to the nodes, and the rotary inertia that the elements omit."""
         added = {number: [0.0] * 3 for number in range(len(self.mesh.nodes))}
         if self.name == "ElasticTimoshenkoBeam":
             for s in self.scene.sections.values():
@@ -310,7 +311,7 @@ class Corotational(Model):
         for factors in ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)):
             ops.integrator("GimmeMCK", *factors)
             ops.analysis("Transient", "-noWarnings")
-            ops.analyze(1, 0.0)  # fails if the matrix is singular; the matrix is complete
+            ops.analyze(1, 0.0)  # fails if the matrix is singular, but the printed matrix is then still complete
             size = ops.systemSize()
             out.append(numpy.array(ops.printA("-ret")).reshape(size, size).T)
         return out[0], out[1]

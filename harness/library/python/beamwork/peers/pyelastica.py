@@ -1,4 +1,4 @@
-"""PyElastica: discrete Cosserat rods. Equilibria are found by damped motion; motions."""
+"""PyElastica: discrete Cosserat rods. Equilibria are found by damped motion."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ ELEMENTS = {
         keys=frozenset({"loads.gravity"}),
     ),
 }
-_STEP = 0.2  # time step, over the time that the fastest wave needs for an element
-_BLOCK = 0.5  # time between checks, over the time constant of the damping
+_STEP = 0.2  # ratio of the time step to the time that the fastest wave takes to pass an element
+_BLOCK = 0.5  # ratio of the time between checks to the time constant of the damping
 _MOST_STEPS = 4_000_000
 _COMPILED: list[bool] = []
-_STILL = 1e-7  # largest change of the axes in a time constant, over their whole change
+_STILL = 1e-7  # largest change of the axes in a time constant, relative to their whole change
 
 
 def version() -> str:

@@ -119,7 +119,7 @@ def _check_springs(scene: Scene) -> None:
 
 
 def _stays_in_plane(scene: Scene) -> bool:
-    """Returns True if the structure would stay in the plane of the scene in space, too."""
+    """Returns True if the structure would stay in its plane even if motions out of the plane were free."""
     others = {"x", "y", "z"} - set(scene.plane or "")
     return (all(a.kind in ("linear", "static", "motion") for a in scene.analyses.values()) and len(others) == 1
             and _motion.normal(scene) == "xyz".index(others.pop()))
@@ -141,7 +141,7 @@ def check(scene: Scene, element: Element, program: str) -> None:
                                           "loads": {load.name: load.raw for load in scene.loads}}
     for part, known in _KNOWN.items():
         if part == "nodes" and "loads.gravity" in element.keys and kinds <= {"linear", "static", "compliance"}:
-            known = known | {"mass", "inertia"}  # they act by their weight only
+            known = known | {"mass", "inertia"}  # only their weight acts
         for name, entry in (read.get(part, file.get(part, {})).items() if part else [("scene", file)]):
             for key in entry:
                 if key == "plane" and _stays_in_plane(scene):
@@ -173,7 +173,7 @@ def check(scene: Scene, element: Element, program: str) -> None:
 
 
 def refusal(scene: Scene, element: Element, q: Quantity) -> str:
-    """Returns why the quantity cannot be computed; "": it can."""
+    """Returns the reason why the quantity cannot be computed; "": it can be computed."""
     if q.analysis not in scene.analyses:
         return f"{q.kind}: no driver computes this quantity"
     analysis = scene.analyses[q.analysis]

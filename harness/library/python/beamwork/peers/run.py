@@ -40,9 +40,9 @@ def _values(scene: Scene, element: Any, answers: dict[str, Answer]) -> dict[str,
 
 
 def _groups(scene: Scene, asked: set[str]) -> list[list[Analysis]]:
-    """Returns groups that together contain all analyses with quantities. Each group is an analysis, after the
-    analysis about whose state it is, if any. Each group is solved with a separate model, so that no analysis
-    starts from the state of another group."""
+    """Returns groups that together contain all analyses with quantities. Each group contains an analysis, preceded by its
+    base analysis if there is one. Each group is solved with a separate model, so that no analysis starts from the state of
+    another group."""
     wanted = [a for a in scene.analyses.values() if a.name in asked]
     states = {a.about for a in wanted}
     return [[*([scene.analyses[a.about]] if a.about else []), a] for a in wanted if a.name not in states]
@@ -69,7 +69,7 @@ class _Steps:
     def __init__(self, limit: float) -> None:
         self.limit = limit
         self.known: dict[int, tuple[dict[str, float], str]] = {}
-        self.before: dict[str, Any] = {}  # values of the mesh before
+        self.before: dict[str, Any] = {}  # values of the previous mesh
         self.searched = set[int]()  # meshes
 
     def of(self, n: int, scene: Scene, motions: list[Analysis], solved: Any) -> tuple[dict[str, float], str]:
@@ -110,7 +110,7 @@ def _solved(peer: Any, scene: Scene, name: str, n: int, known: _Steps) -> dict[s
 
     steps, note = known.of(n, scene, [group[-1] for group in motions], values)
     if n not in known.searched and any(a.kind == "continuation" for group in groups for a in group):
-        _once(peer, scene, name, mesh, groups)  # finds the steps with which the path can be followed
+        _once(peer, scene, name, mesh, groups)  # this round finds the steps with which the path can be followed
     known.searched.add(n)
     begun, setup, answers, model = time.perf_counter(), math.inf, dict[str, Answer](), Model()
     took: dict[str, float] = {}

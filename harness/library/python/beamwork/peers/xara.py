@@ -60,7 +60,7 @@ ELEMENTS = {
 
 _STIFF = 1e6  # shear stiffness of a rigid section, over EI/L^2; 1e7 needs a hundred times the steps in roll_up
 _LEAST_STEP = 1 / 512
-_STEPS: dict[tuple[str, str, int, str], int] = {}  # steps between stations that converged last
+_STEPS: dict[tuple[str, str, int, str], int] = {}  # last numbers of steps between stations with which paths converged
 
 
 def version() -> str:
@@ -179,8 +179,8 @@ class Frame(Model):
         )
 
     def new(self, moved: Mapping[int, Vector] | None = None) -> Any:
-        """Makes a model. moved: displacements and rotations of nodes by which a structure without
-        stresses differs."""
+        """Makes a model. moved: displacements and rotations of the nodes of a structure without stresses;
+        None: the structure is undeformed."""
         import xara
 
         model = xara.Model(ndm=3, ndf=6, rotations="Iter")
@@ -418,7 +418,8 @@ class Frame(Model):
         )
 
     def _axial_effect(self) -> float:
-        """Returns a bound of the axial forces over EI/L^2: of the relative change of stiffnesses that they cause."""
+        """Returns a bound of the axial forces divided by EI/L^2, and thus of the relative change of
+        stiffnesses that they cause."""
         forces = [math.hypot(*v[:3]) for load in self.scene.loads for v in nodal(load, self.mesh, self.scene).values()]
         weakest = min(min(s.EIy, s.EIz) for s in self.scene.sections.values())
         return max(sum(forces) * self.size**2 / weakest, 1e-12)
