@@ -23,7 +23,7 @@ PRINTED = {
 
 
 def channel_data(**given):
-    """`given` contains parameters that differ from the defaults."""
+    """Returns the Section of c_column. `given` contains the parameters that differ from the defaults."""
     at = defaults.decimals("c_column", given)
     s = channel(at["height"], at["width"], at["flange_thickness"], at["web_thickness"])
     s.E, s.G, s.RHO = at["young"], at["shear_modulus"], at["density"]

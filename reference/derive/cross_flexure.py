@@ -2,11 +2,11 @@
 outer two are parallel. The arm rotates about z.
 
 The only free body is the arm, whose rotation about z is given. Its tilts are fixed if the parameter `rotation` is hinge
-or vector. They are free if it is first, last or between, which is the place of the driven rotation among the three
-rotations. In a plane state, this place makes no difference. A unit load acts on the arm while the rotation about z is
-fixed. The moment of the drive along z is dead (spatial moments) or follows the tilt. For semitangential moments, the
-stiffness K changes by m~/2 on the tilts. For symmetrised moments, K is replaced by its symmetric part.
-"""
+or vector. They are free if the parameter is first, last or between, which is the position of the driven rotation in the
+sequence of the three rotations. In a plane state, this position has no effect. A unit load acts on the arm while the
+rotation about z is fixed. The moment of the drive along z is dead (spatial moments) or follows the tilt. For
+semitangential moments, the stiffness K changes by m~/2 on the tilts. For symmetrised moments, K is replaced by its
+symmetric part."""
 import math
 
 import numpy as np
@@ -47,8 +47,8 @@ def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
 
 
 def compliance(net, arm, turned, tilts_free, convention):
-    """Returns the compliance in SI units: for (ux, uy, uz, thx, thy) [5, 5] if the tilts are free, otherwise for the
-    translations [3, 3]."""
+    """Returns the compliance in SI units for (ux, uy, uz, thx, thy) [5, 5] if the tilts are free, or for the
+    translations [3, 3] if they are fixed."""
 
     def tilting(level, x, R, force, moment, numbers):
         return np.concatenate([force, moment[:2], turned(level, x, R, force, moment, numbers)[5:]])

@@ -161,7 +161,8 @@ def held_tip(vibration, y, p, free_warping):
 
 
 def sheet_frequencies(count, given, form=lambda beam: beam, interpolated=False):
-    """`form` is explained at sheets.deflected."""
+    """Returns the `count` lowest frequencies [Hz] of sheet_cantilever in its deflected state. For `form`, see
+    sheets.deflected."""
     value = {**defaults.values("sheet_cantilever"), **given}
     net, _ = deflected(given, form)
     width, thickness, length = value["width"], value["thickness"], value["length"]

@@ -73,8 +73,8 @@ def _condition(load, K, gamma, terms):
 
 
 def lateral_load(load, K, guess, terms=TERMS):
-    """`terms` must be several times exp(1) sqrt K. The determinant, which grows with exp(sqrt K), is divided by its
-    size near the root."""
+    """Returns the root gamma near `guess`. `terms` must be several times exp(1) sqrt K. The determinant, which grows
+    with exp(sqrt K), is divided by its size near the root."""
     K, guess = mpf(K), mpf(guess)
     unit = abs(_condition(load, K, guess * mpf("1.01"), terms))
     return findroot(lambda g: _condition(load, K, g, terms) / unit, guess, tol=mpf(10) ** -30)

@@ -5,9 +5,9 @@ The unknowns of a body are its position x, its rotation and the load (f, mu) on 
 beam are F, m0 (moment about the origin, constant along the beam) and its states at the ends of the intervals. The
 problem may have additional numbers as unknowns. The equations of a body are the six equations of equilibrium and six
 conditions that depend on its support: a clamped body has a given position and rotation, and a free body has no load on
-its reference point. The equations of a beam are those of its intervals, six equations of closure (the end of the beam
-coincides with its place on the second body), and one warping condition at each end.
-"""
+its reference point. The equations of a beam are those of its intervals, six conditions of closure (the end of the beam
+coincides with the point and the axes of the second body to which it is fixed), and one warping condition at each
+end."""
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
@@ -80,7 +80,7 @@ class Loaded(Scaled):
 class Body:
 
     def __init__(self, x, conditions, on=None):
-        """`on` is the body to which a joint belongs."""
+        """Makes a body at x. `on` is the body to which a joint belongs, or None."""
         self.on = on
         self.x, self.q, self.load, self.conditions = np.array(x, dtype=float), np.array(
             [1.0, 0, 0, 0]), np.zeros(6), conditions
@@ -166,7 +166,8 @@ class Network:
         ]  # conditions that determine the numbers: (body, function(level, x, R, force, moment, numbers))
 
     def body(self, position, conditions=free):
-        """`position` is in [m]. `conditions` is a function that receives dimensionless values."""
+        """Adds a body and returns it. `position` is in [m]. `conditions` is a function that receives dimensionless
+        values."""
         self.bodies.append(Body(np.array(position) / self.length, conditions))
         return self.bodies[-1]
 
@@ -177,8 +178,9 @@ class Network:
         return self.bodies[-1]
 
     def member(self, beam, first, second, start, axes, warp=("fixed", "fixed"), loads=()):
-        """`start` is the position [m] of its start, which is fixed to the first body. The columns of `axes` are x, y,
-        z of the beam. `loads` are LineLoads along the beam."""
+        """Adds a beam between two bodies and returns the Member. `start` is the position [m] of its start, which is
+        fixed to the first body. The columns of `axes` are x, y, z of the beam. `loads` are LineLoads along the
+        beam."""
         offset = np.array(start) / self.length - first.x
         scaled = beam.scaled(self.length, self.force)
         if loads:
@@ -264,8 +266,8 @@ class Network:
 
     @staticmethod
     def _closure(m, last, row, put, right):
-        """Adds the closure of position and rotation at the end of a member. The closure of the rotation is 2 vec(q o
-        q_target*) = 0."""
+        """Adds the conditions that the position and the rotation at the end of a member equal those prescribed by its
+        second body. The condition for the rotation is 2 vec(q o q_target*) = 0."""
         b, y = m.bodies[1], m.y[-1, -1]
         arm = b.R @ m.ends[1]
         _block(put, row, last, np.eye(3))

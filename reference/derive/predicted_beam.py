@@ -9,28 +9,21 @@ import numpy as np
 
 from reference.derive.beam import Beam, Scaled, product, rotation
 
-# Strain measures of printed elements under refinement, that is, of a short element of a smooth beam.
-#
-# r' = R (e_x + gamma), kappa~ = R^T R', and a is the warping amplitude. h is the length, lambda = |e_x + gamma|, and
-# the chord is along n = (e_x + gamma)/lambda. Each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z) to leading
-# order in h. The corresponding stiffness tends to diag(EA, G D, GIt, EIy, EIz), and warping has the energy of EIw a'^2.
-# The shear strains g are those of the shear centre. reference/test/measures_test.py contains proofs with short
-# elements.
-#
-# J Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:
-#   eps = lambda - 1,  g_y = n_y - zs k_x,  g_z = n_z + ys k_x,  g_w = k_x - a,
-#   k_x = kappa_x,  k_y = n_x kappa_y - n_y kappa_x,  k_z = n_x kappa_z - n_z kappa_x
-# J Eq. 66, with w = kappa_x - a:
-#   eps + (n_y^2 + n_z^2)/10 + (Ip/A) (kappa_x^2 + w^2/5)/2 - (ys^2 + zs^2) kappa_x^2/10,
-#   k_x + n_y k_y + n_z k_z,  k_y - n_y w/5,  k_z - n_z w/5
-# N Eqs. 37, 40, 42, with the angles of N's local coordinates, sin y = n_z, tan z = -n_y/n_x, and p = kappa_x - kappa_y
-# tan z, y' = kappa_y/cos z, z' = kappa_z:
-#   eps = lambda - 1 + (y^2 + z^2)/10 + Ite p^2/2,  g_y = -z,  g_z = y,  g_w = p - a,
-#   k_x = p + y z',  k_y = y' + z p,  k_z = z' - y p
-# The same integrals over the linear solution with shear (sheet_second_consistent):
-#   eps = lambda - 1 - (y^2 + z^2)/2 + Ite p^2/2,  k_x = p + z y',  k_y = y',  k_z = z'
-# N Eqs. 44-65 (sheet_third) give the measures of Eq. 37. The terms added by the stress function are of higher order in
-# h, and g_y has no compliance (N Eq. 50).
+# Strain measures of printed elements under refinement, that is, of a short element of a smooth beam.  r' = R (e_x +
+# gamma), kappa~ = R^T R', and a is the warping amplitude. h is the length, lambda = |e_x + gamma|, and the chord is
+# along n = (e_x + gamma)/lambda. Each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z) to leading order in h.
+# The corresponding stiffness tends to diag(EA, G D, GIt, EIy, EIz), and the stiffness of a' is EIw. The shear
+# strains g are those of the shear centre. reference/test/measures_test.py contains proofs with short elements.  J
+# Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:   eps = lambda - 1,
+# g_y = n_y - zs k_x,  g_z = n_z + ys k_x,  g_w = k_x - a,   k_x = kappa_x,  k_y = n_x kappa_y - n_y kappa_x,  k_z =
+# n_x kappa_z - n_z kappa_x J Eq. 66, with w = kappa_x - a:   eps + (n_y^2 + n_z^2)/10 + (Ip/A) (kappa_x^2 +
+# w^2/5)/2 - (ys^2 + zs^2) kappa_x^2/10,   k_x + n_y k_y + n_z k_z,  k_y - n_y w/5,  k_z - n_z w/5 N Eqs. 37, 40,
+# 42, with the angles of N's local coordinates, sin y = n_z, tan z = -n_y/n_x, and p = kappa_x - kappa_y tan z, y' =
+# kappa_y/cos z, z' = kappa_z:   eps = lambda - 1 + (y^2 + z^2)/10 + Ite p^2/2,  g_y = -z,  g_z = y,  g_w = p - a,
+# k_x = p + y z',  k_y = y' + z p,  k_z = z' - y p The same integrals over the linear solution with shear
+# (sheet_second_consistent):   eps = lambda - 1 - (y^2 + z^2)/2 + Ite p^2/2,  k_x = p + z y',  k_y = y',  k_z = z' N
+# Eqs. 44-65 (sheet_third) give the measures of Eq. 37. The terms added by the stress function are of higher order
+# in h, and g_y has no compliance (N Eq. 50).
 
 VARIABLES = 7  # gamma, kappa, a
 MEASURES = 7

@@ -52,8 +52,8 @@ def moment(s, k, shear, eq66):
 
 
 def critical(s, length, shear, prestress, eq66):
-    """Returns the (largest negative, smallest positive) critical load over the half-waves. None stands for a load
-    that does not exist."""
+    """Returns the (largest negative, smallest positive) critical load over the half-waves. A load that does not exist
+    is None."""
     found = []
     for n in range(1, HALF_WAVES + 1):
         k = n * pi / length

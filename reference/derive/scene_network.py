@@ -75,7 +75,7 @@ class SceneNetwork:
     numbers)} in SI units, and `unknown` is {motion: its number}."""
 
     def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
-        """`form` replaces a beam by another beam, as in predicted.py."""
+        """Builds the network. `form` is a function that replaces a beam by another beam, as in predicted.py."""
         only(scene, "the scene", SCENE)
         self.scene, self.physics, self.form = scene, physics_of(scene), form
         self.places, self.numbers, self.extra, self.unknown, self.conditions_of = {}, 0, [], {}, []

@@ -26,7 +26,7 @@ KIND = "consensus"  # kind of the stored rows with which these values are compar
 MESHES = ((10, 10), (8, 8))  # number of elements of a leg, degree
 TIMES = ("1", "2", "2.5", "4", "5", "7", "7.5", "9", "10")
 ELBOW_MESHES = ((4, 10), (3, 8))
-ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because its fast axial waves require small steps
+ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because fast axial waves in the elbow require small steps
 
 
 @dataclass(frozen=True)

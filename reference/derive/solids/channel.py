@@ -27,7 +27,7 @@ POINTS = {"D": (0.1, 0.2, 0.5, 1.04, 2.6), "E": (0.1, 0.2, 0.494, 1.04, 1.2)}
 WAGNER = (
     [],
     ["wagner_moments=*"],
-)  # the values apply to the default of the case and to any choice of the Wagner moments, which a solid does not have
+)  # the values apply to the defaults of the case and to any `wagner_moments`, an option of beams that has no effect on a solid
 
 
 def channel(along, flange, web):

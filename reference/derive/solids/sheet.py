@@ -32,8 +32,8 @@ TWISTED = "C_ux_My", "C_thy_Fx", "C_ux_Fx", "C_uz_Fz", "C_thx_Mx", "C_thy_My"
 
 class Sheet:
     def __init__(self, elements, layers, folder):
-        """`elements` is the number of elements along the length, and also along the width. `layers` is the number of
-        elements through the thickness."""
+        """Makes the mesh. `elements` is the number of elements along the length and along the width, and `layers` is
+        the number of elements through the thickness."""
         ys = THICKNESS * (np.arange(layers + 1) / layers - 0.5)
         self.grid, self.folder = (
             Grid(LENGTH * graded(elements), ys, WIDTH * (graded(elements) - 0.5)),
