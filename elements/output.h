@@ -23,8 +23,9 @@ typedef struct stress_output {
                          inner unknowns) */
     double
         *memory; /* [memory] eliminated inner equations, which `stress` writes and `update` reads */
-    const double *history; /* in: as in strain_output. Only `stress` of a type that the program
-                              completes from `force` uses it */
+    /* in: [history] values of the last accepted state, or NULL; used only by `stress` of a type
+     * that the program completes from `force` */
+    const double *history;
 } stress_output;
 
 /* Outputs of `inertia`. */

@@ -136,8 +136,8 @@ typedef struct scene_motion {
  * undamped modes may be added. */
 typedef struct scene_proportional {
     double mass, stiffness; /* [1/s], [s] */
-    double ratio;           /* damping ratio of all modes that are not in ... */
-    scene_path ratios;      /* ... the damping ratios of the first modes */
+    double ratio;           /* damping ratio of all modes beyond `ratios` */
+    scene_path ratios;      /* damping ratios of the first modes */
 } scene_proportional;
 
 /* The load case or combination whose loads are active. If both are SCENE_NONE, scene_acting_of
@@ -512,12 +512,14 @@ typedef enum scene_vibration_part {
 #define SCENE_VIBRATION_PARTS   "amplitude|phase|real|imaginary"
 typedef struct scene_response {
     int node, component;
-    int from;                 /* node whose response is subtracted, or SCENE_NONE */
-    int forced, forced_along; /* node and component of a force or moment; otherwise ... */
-    int driver;               /* ... the driver that moves; otherwise ... */
-    int reference;            /* ... the load with feedback whose reference moves; otherwise ... */
-    int unbalanced, spinning; /* ... the node of an unbalance, and the component SCENE_RX ..
-                                 SCENE_RZ of its rotation */
+    int from; /* node whose response is subtracted, or SCENE_NONE */
+    /* node and component of the exciting force or moment, if this is the input */
+    int forced, forced_along;
+    int driver;    /* driver that moves, if this is the input */
+    int reference; /* load with feedback whose reference value is the input */
+    /* node of the unbalance that is the input, and component SCENE_RX .. SCENE_RZ of its
+     * rotation */
+    int unbalanced, spinning;
     scene_vibration of;
     scene_vibration_part part;
 } scene_response;
@@ -607,10 +609,11 @@ scene_extract scene_beside(scene_extract what, int before);
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {
     char name[SCENE_NAME], unit[SCENE_UNIT];
-    int is_quantity; /* 1 if the abscissa is the curve of another quantity at the same stations, in
-                        the unit of that quantity; otherwise the abscissa is ... */
-    double factor,
-        offset; /* ... factor times the path parameter or control coordinate, plus offset */
+    /* 1 if the abscissa is the curve of another quantity at the same stations, in the unit of that
+     * quantity; 0 if it is `factor` times the path parameter or control coordinate, plus
+     * `offset` */
+    int is_quantity;
+    double factor, offset; /* used if is_quantity is 0 */
 } scene_abscissa;
 
 /* Analytic estimate, which is shown next to the result and has no verdict. */
@@ -811,7 +814,7 @@ typedef struct scene_spring {
     double damping[36];   /* damping matrix: forces per rate of d [N s/m, N s, N m s] */
     double asymmetry; /* asymmetry of the given K relative to its diagonal if it is only rounding,
                          so that the symmetric part is used; otherwise 0 */
-    double damping_asymmetry; /* the same for the damping matrix */
+    double damping_asymmetry; /* asymmetry of the given damping matrix, as for K */
     scene_table table[6];     /* tables of the components of d, which act in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
@@ -849,10 +852,10 @@ typedef struct scene_driver {
                                 driver is unknown */
     scene_function function; /* function of time, given instead of the stations; no pieces if
                                 stations are given */
-    int condition_node,
-        condition_component; /* for an unknown driver, the coordinate that is prescribed ... */
-    int condition_driver; /* ... and the driver that gives its value; SCENE_NONE for a known driver
-                           */
+    /* for an unknown driver: the coordinate whose value is given */
+    int condition_node, condition_component;
+    /* for an unknown driver: the driver that gives this value; SCENE_NONE for a known driver */
+    int condition_driver;
     int load_case; /* load case of the driver, or SCENE_NONE if the driver moves in all load cases
                     */
 } scene_driver;

@@ -16,9 +16,10 @@ typedef struct beam_constants {
     double torque;                  /* coefficient of kappa_x^4 in the energy per length */
     double initial[3];              /* strains gx, gy, gz of the stress-free element */
     int warping;
-    int coupled;  /* 1 if the section is given by matrices; of the other members, only those below,
-                     energy, initial and warping = 0 are used */
-    double C[36]; /* (N, Q, M) = C (gamma, kappa) */
+    /* 1 if the section is given by matrices. Then only the members below, `energy` and `initial`
+     * are used, and `warping` is 0 */
+    int coupled;
+    double C[36];     /* (N, Q, M) = C (gamma, kappa) */
     double mixed[36]; /* (M, -gamma) = mixed (kappa, N) */
 } beam_constants;
 

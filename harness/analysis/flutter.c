@@ -30,8 +30,8 @@ void flutter_system_free(flutter_system *s)
     sparse_free_values(&s->C);
 }
 
-status flutter_motions(const newton_run *n, flutter_system *s, int wanted,
-                       flutter_detail detail, unsymmetric_result *r, fault *f)
+status flutter_motions(const newton_run *n, flutter_system *s, int wanted, flutter_detail detail,
+                       unsymmetric_result *r, fault *f)
 {
     const unsymmetric_problem p = {.K = &n->K,
                                    .M = &s->M,
@@ -275,7 +275,7 @@ static int differs(const flutter_check *j)
            (here < (first < last ? first : last) || here > (first > last ? first : last));
 }
 
-/* Advances to `path`. *reached 0: Newton's method did not converge. */
+/* Advances to `path`. Sets *reached to 0 if Newton's method did not converge. */
 static status go_to(newton_run *n, double path, int *reached, fault *f)
 {
     step_record record = {0};
@@ -456,8 +456,8 @@ static void apply(void *context, const double x[], double y[])
         y[k] *= sqrt(of->weight[k]);
 }
 
-/* Returns the number of eigenvalues to the left of the imaginary axis. *sure 0: there may be others
- * that were not examined. */
+/* Returns the number of eigenvalues to the left of the imaginary axis. Sets *sure to 0 if there may
+ * be others that were not examined. */
 static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
 {
     int left = 0;

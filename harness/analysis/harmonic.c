@@ -38,7 +38,7 @@ static int same_input(const scene_response *a, const scene_response *b)
            (a->unbalanced == SCENE_NONE || a->spinning == b->spinning);
 }
 
-/* Solves directly. x: forces on entry, solution on return. */
+/* Solves directly. x contains the forces on entry and the solution on return. */
 static void solve_direct(vibration *v, const scene_response *r, double w, double complex x[])
 {
     const int n = v->free, more = harmonic_border(v), N = n + more + v->loops;
@@ -63,8 +63,8 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         x[v->all + l] = v->x[n + more + l] + I * v->x[N + n + more + l];
 }
 
-/* Solves by modal superposition. x: forces on entry, solution on return. left[free]: residual of
- * the forces. */
+/* Solves by modal superposition. x contains the forces on entry and the solution on return. Sets
+ * left[free] to the residual of the forces. */
 static void solve_by_modes(vibration *v, const scene_response *r, double w, double complex x[],
                            double complex left[])
 {

@@ -220,8 +220,8 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
     return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
 }
 
-/* Checks the damping. REFUSED: that of a spring is not symmetric, as a solution by modes
- * requires. */
+/* Checks the damping. REFUSED: the damping matrix of a spring is not symmetric, although a solution
+ * by modes requires symmetry. */
 static status check_damping(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;

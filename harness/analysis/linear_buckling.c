@@ -12,8 +12,8 @@
  * of members once, so the solution of a combination is not the sum of the solutions of its load
  * cases. */
 
-/* Returns 1 if a quantity of the analysis needs this load case or combination. If no quantity needs
- * any, all are computed. */
+/* Returns 1 if a quantity of the analysis needs this load case or combination. Also returns 1 if no
+ * quantity needs any of them, because all are then computed. */
 static int is_read(const scene *s, int analysis, int acting)
 {
     int any = 0;

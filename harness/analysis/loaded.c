@@ -305,9 +305,9 @@ static double rate_to(const loaded_search *s, double path)
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
-/* Computes the state at `path`. *stable: 1 if the state is stable; it is then the last stable
- * state. Beyond a limit point, there is no neighbouring state: Newton's method fails, or finds a
- * distant state, which may be stable. */
+/* Computes the state at `path`. Sets *stable to 1 if the state is stable; the state is then the
+ * last stable state. Beyond a limit point, there is no neighbouring state: Newton's method fails,
+ * or finds a distant state, which may be stable. */
 static status go_to(loaded_search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
@@ -528,8 +528,8 @@ static status narrow(loaded_search *s, int passed, double *low, double *high, in
 }
 
 /* Finds a path parameter *low, from which the search continues: the first of several values just
- * above the load `high` at which Newton's method converges. The last value is `most`. *negative:
- * number of negative eigenvalues at *low. */
+ * above the load `high` at which Newton's method converges. The last value is `most`. Sets
+ * *negative to the number of negative eigenvalues at *low. */
 static status pass(loaded_search *s, double high, double width, double most, double *low,
                    int *negative, fault *f)
 {

@@ -69,14 +69,16 @@ static status read_interface(const vibration *v, const char *text, int *modes, c
     return STATUS_OK;
 }
 
-/* Transfer functions of the full and the reduced model at one frequency, [each] complex. */
+/* Complex transfer functions [each] of the full and the reduced model at one frequency. */
 typedef struct transfers_compared {
     size_t each;
     double *whole, *reduced;
-    double *rounding; /* [each] of the full model */
+    double *rounding; /* [each] rounding errors of the transfer functions of the full model */
     double *largest;  /* [each] largest absolute value of the full model over all frequencies */
     char *exists;     /* [each] 0: zero at all frequencies, apart from rounding errors */
-    char *kind;       /* [n + motions] of the full model: 0 m, 1 rad, 2 rad/m, 3 motions */
+    /* [n + motions] kind of each coordinate of the full model: 0 m, 1 rad, 2 rad/m, 3 prescribed
+     * motion */
+    char *kind;
 } transfers_compared;
 
 static status transfers_alloc(const second_order *whole, transfers_compared *t, reduced_model *out,

@@ -14,9 +14,9 @@ static status compliance_walk_begin(newton_run *, int path, compliance_walk **ou
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Determines the stability at the end of a step if the pivots do not decide it. *found: path
- * parameter within the step at which stability differs from that of both ends; INFINITY: none.
- * last_resort: 1 if the step cannot be shorter. */
+/* Determines the stability at the end of a step if the pivots do not decide it. Sets *found to a
+ * path parameter within the step at which stability differs from that at both ends, or to INFINITY
+ * if there is none. last_resort: 1 if the step cannot be shorter. */
 static status check_flutter(newton_run *n, flutter_check *flutter, int last_resort,
                             step_record *record, double *found, fault *f)
 {

@@ -209,7 +209,7 @@ static void show_work(const compared_run *a, const compared_run *b)
     paragraph_end(&words, at, 2);
 }
 
-/* Returns why the two cells are not ranked; "": they are ranked. */
+/* Returns the reason why the two cells are not ranked; "": they are ranked. */
 static const char *unranked(const compared_run *a, const compared_run *b)
 {
     const char *why = reach_unranked(a->request.formulation);

@@ -19,7 +19,8 @@ typedef struct plot_request {
     int steps;
 } plot_request;
 
-enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 }; /* COULD_NOT: as in reports/graph.py */
+/* COULD_NOT: exit status of reports/graph.py if nothing can be drawn */
+enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 };
 
 static const char python[] = "/usr/bin/python3";
 static const char begin_program[] =

@@ -22,8 +22,9 @@ typedef struct solve_request {
     const char *follow; /* NAME=A..B/N: parameter over which modes are followed; NULL: none */
     const char *matrices;
     int state_space;    /* 1: linear models are written as well */
-    const char *reduce; /* also writes reduced models */
-    /* files: output for the final states of motions; state from which motions continue */
+    const char *reduce; /* reduced models that are also written; NULL: none */
+    /* ends: file for the final states of motions; restart: file with the states from which motions
+     * continue */
     const char *ends, *restart;
 } solve_request;
 

@@ -419,10 +419,11 @@ typedef struct extreme_deviation {
 
 typedef struct extreme_outcome {
     int extreme, value, formulation, quantity;
-    /* indices in the sweeps: the point and series, and the series of the other meshes; -1: none */
+    /* indices in the sweeps of the point, of the series, and of the series of the neighbouring
+     * meshes; -1: none */
     int point, series, neighbours;
     outcome_kind kind;
-    double x, result, reference, error; /* the error is relative; NAN: none */
+    double x, result, reference, error; /* `error` is relative; NAN: there is no error */
     double neighbour_error[OUTCOME_NEIGHBOURS];
     const extreme_deviation *deviation;
     int as_expected;
@@ -586,10 +587,10 @@ typedef struct motion_request {
     const double *parameter;
     const char *vary; /* varied parameter, "NAME=A..B/N" or "NAME=A,B,C"; NULL: none */
     const formulation *formulation;
-    int formulations, elements; /* elements: 0: as in the case */
+    int formulations, elements; /* elements: number per member; 0: number in the case */
     /* lists as given on the command line; NULL: default lists */
     const char *integrators, *steps, *tolerances;
-    int conservation_only; /* 1: without a reference */
+    int conservation_only; /* 1: no reference is computed */
     int each;              /* 1: the text has a line for each motion as well as the verdicts */
     sweep_request cells;
 } motion_request;
@@ -811,8 +812,9 @@ typedef struct tally_series {
 
 /* A field of the map: it covers a range of each axis. */
 typedef struct tally_place {
-    /* number of points in the field; where the formulation solves another model; with a reference;
-     * and, of the latter, where even the finest mesh is not within the tolerance */
+    /* numbers of points in the field: all points; `other`: points where the formulation solves
+     * another model; `requested`: points with a reference; `never`: points of `requested` where
+     * even the finest mesh is not within the tolerance */
     long points, other, requested, never;
     long proven; /* number of points of `requested` whose reference is a reference value */
     /* smallest number of elements such that this mesh and all finer meshes are within the tolerance

@@ -305,12 +305,12 @@ typedef struct beam_request {
 status beam_section(const beam_request *, section *out);
 /* Solves the beam and adds the error with respect to `exact` to the measure. The error is NAN if
  * there is no value; `words` then gives the reason at the first such point. Returns 0 if further
- * points are useless: the formulation does not support the beam, or none of the first three points
- * has a value. */
+ * points are useless, because the formulation does not support the beam or none of the first three
+ * points has a value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
-/* Returns the outcome of a family of checks: CHECK_FAILED if a requirement is violated,
- * CHECK_PASSED if a requirement other than "prepare" is satisfied, and otherwise CHECK_NOT_MADE. */
+/* Returns CHECK_FAILED if one of the checks has found a violated requirement, CHECK_PASSED if a
+ * requirement other than "prepare" is satisfied, and CHECK_NOT_MADE in all other cases. */
 check_outcome checks_outcome(const check_results *);
 
 /* Text output of certificates. */
@@ -431,7 +431,9 @@ typedef struct integrators_plan_request {
     const case_type *type;
     const double *parameter;
     formulation formulation;
-    int elements; /* 0: as in the second mesh of the case, or 4 if it has fewer meshes */
+    /* number per member; 0: that of the second mesh of the case, or 4 if the case has fewer
+     * meshes */
+    int elements;
     int methods;
     const integrators_method *method;
     integrators_list steps, tolerances;

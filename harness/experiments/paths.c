@@ -136,7 +136,8 @@ typedef struct walker {
     const test_element *s;
     double history[ADAPTERS_MOST_HISTORY];
     int compares;
-    double e[M], energy, force[N]; /* force: multiplied by the unit of its coordinate [J] */
+    /* each entry of `force` is multiplied by the unit of its coordinate [J] */
+    double e[M], energy, force[N];
     double most_e, most_energy, most_force; /* largest absolute values in the first cycle */
 } walker;
 

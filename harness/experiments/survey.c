@@ -208,7 +208,7 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Returns 1 if the selection includes the formulation. In any case, records the words of the
+/* Returns 1 if the selection includes the formulation. In both cases, records the words of the
  * selection that match. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)

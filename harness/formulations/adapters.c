@@ -176,7 +176,7 @@ static void make_absolute(const element_type *given, const double options[], ele
     out->strain = absolute_strain;
     out->stress = absolute_stress;
     out->stress_many = given->force_many != NULL ? absolute_stress_many : NULL;
-    out->geometric = NULL; /* then linear buckling is rejected */
+    out->geometric = NULL; /* so linear buckling is rejected */
     out->begin = absolute_begin;
     out->commit = absolute_commit;
 }

@@ -41,7 +41,7 @@ static const char *const keys[] = {"beamwork", "name",           "summary", "sou
 /* Memory to which the type points: it outlives the JSON. */
 typedef struct handshake_memory {
     parameter_type option[ELEMENT_MAX_OPTIONS + 1];
-    char *end; /* of the copied texts */
+    char *end; /* end of the texts copied so far */
     char text[];
 } handshake_memory;
 
@@ -161,7 +161,7 @@ static status places_of(const handshake_reading *r, int nodes, double place[])
         return STATUS_OK;
     int numbers = (int)json_array_size(list) == nodes;
     for (int k = 0; k < nodes; k++) {
-        const json_t *number = json_array_get(list, (size_t)k); /* NULL beyond the end */
+        const json_t *number = json_array_get(list, (size_t)k); /* NULL if the list is too short */
         numbers &= json_is_number(number);
         place[k] = json_number_value(number);
     }

@@ -104,8 +104,8 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
  * are more meshes than a series can have. FAULT: out of memory. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 
-/* Returns the string of an entry, or `otherwise` if the entry is missing or, which is added to m as
- * an error, not a string. map_keys_number does the same for a number. */
+/* Returns the string of an entry, or `otherwise` if the entry is missing. A value that is not a
+ * string is added to m as an error. map_keys_number does the same for a number. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);

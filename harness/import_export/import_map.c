@@ -9,8 +9,8 @@
 #include "elements/shared/choice.h"
 
 static void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
-/* Returns the whole number of an entry, at least 0, or `otherwise` if the entry is missing or,
- * which is an error, not such a number. */
+/* Returns the value of an entry, a whole number of at least 0, or `otherwise` if the entry is
+ * missing. Another value is added to m as an error. */
 static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };

@@ -374,7 +374,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
 static const double least_moment = 1e-12;
 
 /* Returns the reaction moment [N m] about the only fixed axis of a node; 0: the moment is a
- * rounding error. sigma: as for internal_state. */
+ * rounding error. sigma[elements x strains]: stresses; NULL: the stresses of the state. */
 static double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                                     double path, int node, int axis)
 {

@@ -10,7 +10,7 @@
 enum { WIDTH = PIECE_LANES };
 
 /* Divides the member into groups of full pieces, and two groups of shorter pieces. Returns their
- * number. group NULL: they are only counted. */
+ * number. If `group` is NULL, only counts them. */
 static int divide(const condensed_member *of, piece_group group[])
 {
     int groups = 0, link = 0, done = 0;

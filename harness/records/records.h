@@ -101,10 +101,8 @@ typedef struct result_series {
     /* sum of log10(max(|error|, RESULTS_FLOOR)) over these values, which depends on every error
      * above RESULTS_FLOOR, but not on rounding below it */
     double decades;
-    result_error least,
-        /* least: largest error on the mesh where it is smallest; largest: largest error on all
-         * meshes */
-        largest;
+    /* least: smallest of the largest errors of the meshes; largest: largest error on all meshes */
+    result_error least, largest;
     /* [limits] at a default point, in the order of the quantities of the point */
     result_limit *limit;
 } result_series;
@@ -168,8 +166,8 @@ typedef struct comparison {
     int swept;
     int pairs;                     /* number of cells or series that exist in both runs */
     int count[COMPARISON_KINDS];   /* number of lines of each kind */
-    double work[2][RESULTS_WORKS]; /* sums over the pairs: old run, new run */
-    double cost[2];                /* [s] cost of the counted work of sweeps: old run, new run */
+    double work[2][RESULTS_WORKS]; /* sums over the pairs, for the old and the new run */
+    double cost[2]; /* [s] cost of the counted work of sweeps, for the old and the new run */
     /* numbers of series that exist in only one run (old, new) and do not count as changes; outside:
      * not selected in the other run; fresh: the formulation does not affect the exit status yet */
     int outside[2], fresh[2];
@@ -477,7 +475,7 @@ status output_open_whole(const char *path, output *out, fault *f);
 status output_close(output *out, fault *f);
 status output_finish(output *out, status written, fault *f);
 status output_flush(fault *f);
-/* Like output_flush. Also FAULT if an earlier write to standard output failed. */
+/* Like output_flush, but also returns FAULT if an earlier write to standard output failed. */
 status output_all_written(fault *f);
 /* Checks an output before any computation. *where: location of the output, for comparison with
  * other outputs. */

@@ -289,8 +289,8 @@ static int take_words(char *list, result_series *s, int take(char *text, result_
     return 1;
 }
 
-/* Reads the size, the elements and the quantity of an error. All three are given, or none if no
- * value has an error. */
+/* Reads the size, the elements and the quantity of an error. Either all three are given or, if no
+ * value has an error, none of them. */
 static int take_error(char *field[], int errors, result_error *e)
 {
     long elements = 0;

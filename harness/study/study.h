@@ -249,7 +249,7 @@ typedef struct sweep_point {
     char text[PARAMETERS_TEXT]; /* parameters that differ from the defaults */
     char name[16];              /* "default", or the first digits of the hash of the parameters */
     scene_edit edit;
-    int steps;       /* number of load steps between stations; 0: as in the scene */
+    int steps;       /* number of load steps between stations; 0: number in the scene */
     int condition;   /* 1: the condition of the tangents is estimated */
     int shapes;      /* largest number of states whose centre lines are stored; 0: none */
     int whole_steps; /* 1: time steps are not halved on finer meshes */
@@ -282,12 +282,12 @@ typedef struct sweep {
     const case_type *const *cases;
     const formulation *given;
     int givens;
-    int named;        /* as in the request */
-    double tolerance; /* as in the request */
-    int shapes;       /* as in the request */
+    int named;        /* copied from the sweep_request */
+    double tolerance; /* copied from the sweep_request */
+    int shapes;       /* copied from the sweep_request */
     int whole_only;   /* 1: a formulation that does not support a required feature does not run */
     int values_only;  /* 1: values that only curves and matrices need are not computed */
-    int doublings;    /* as in the request */
+    int doublings;    /* copied from the sweep_request */
     int threads;      /* threads for the loop over elements in every cell; 0 or 1: one thread */
     /* number of cells that an interrupted run did not complete; incomplete series were removed */
     int unfinished;
@@ -428,7 +428,8 @@ const truth *verdict_reference(const truths *t, const sweep_point *p, const form
 /* Evaluates the quantity and the series of v. Sets the verdict, its limit and its errors. Sets
  * `matches` if the verdict is expected without a known deviation. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
-/* The same with another relative scatter of the values; NAN: not measured. */
+/* Like verdict_reach, with the given relative scatter of the values (`noise`); NAN: not
+ * measured. */
 void verdict_reach_with(const sweep *s, const truths *t, double noise, verdict *v);
 /* Returns (value - reference)/max(|reference|, near_zero), or the difference if both are zero. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);

@@ -113,7 +113,7 @@ typedef struct workload {
     sweep *s;
     const sweep_follower *follower; /* NULL: none */
     int time_limit;                 /* [s] time limit of a cell; 0: none */
-    int together;                   /* as in the request */
+    int together;                   /* copied from the sweep_request */
     /* count: number of cells, which come first, in the order of run_cost_order; all: number of all
      * tasks, which are the cells and two repetitions for each series */
     int count, all;

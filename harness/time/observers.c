@@ -9,9 +9,10 @@
 
 enum { PIECES = MEANS_NODES - 1, MOST_HALVINGS = 200 };
 
-/* relative to the size of the quantity: values below this have no sign */
+/* largest value, relative to the size of the quantity, that counts as zero */
 static const double no_sign = 1e-13,
-                    /* the same for forces and energies, relative to the largest magnitude so far */
+                    /* largest force or energy, relative to its largest magnitude so far, that
+                     * counts as zero */
     no_sign_aside = 1e-9,
                     /* The sign changes at a jump, not at zero, if the value at the root exceeds
                      * this fraction of the values around it. For example, a rotation vector
