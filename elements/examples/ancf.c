@@ -63,7 +63,7 @@ static void axis(const double R[9], int i, double a[3])
         a[k] = R[3 * k + i];
 }
 
-/* Chord divided by the length, and the directions and lengths of the slopes. */
+/* The chord divided by the length, and the directions and lengths of the slopes. */
 typedef struct line {
     double chord[3], direction[2][3], slope[2];
 } line;

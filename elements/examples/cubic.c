@@ -147,8 +147,8 @@ typedef struct values {
     double q[4], dq[4], g[3], a, da;
 } values;
 
-/* Computes |q|^2 R(q)^T g and |q|^2 k: bilinear in two quaternions, which are summed in both orders
- * if `other` is not the same. */
+/* Computes |q|^2 R(q)^T g and |q|^2 k, bilinear in two quaternions; if these differ, adds both
+ * orders. */
 static void forms(const double q[4], const double p[4], const double g[3], const double dp[4],
                   double turned[3], double k[3])
 {
@@ -198,7 +198,7 @@ static void change_at(const element_data *d, const values *x, const values *dx, 
     de[7] = d->warps ? de[3] - l * l * dx->a : 0;
 }
 
-/* Computes the changes of the values of point p for coordinate c of node k. q: its quaternion. */
+/* Computes the changes of the values of point p for coordinate c of node k with quaternion q. */
 static void move(const element_data *d, const node_state x[], int p, int k, int c,
                  const double q[4], values *out)
 {
@@ -251,7 +251,7 @@ static void strain(const element_data *d, const node_state x[], strain_output *o
         for (int c = 0; c < N && out->J != NULL; c++) {
             const int k = c / EACH, own = c % EACH;
             move(d, x, p, k, own, q[k], &by);
-            if (k == 0 && own > 2 && own < 6) { /* the first node: rotates the axes */
+            if (k == 0 && own > 2 && own < 6) { /* a rotation of the first node rotates the axes */
                 double axis[3];
                 for (int i = 0; i < 3; i++)
                     axis[i] = x[0].R[3 * (own - 3) + i];

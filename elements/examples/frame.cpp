@@ -1,7 +1,7 @@
-/* A corotational beam of two nodes in C++17, the one of corotational.c, given by its strains: the
- * elongation, the twist and the rotations of both nodes relative to axes that follow the element.
- * `number` computes the first and second derivatives of all that is computed with it (automatic
- * differentiation), so that only the strains themselves are written.
+/* The corotational beam of corotational.c in C++17, given by its strains: the elongation, the twist
+ * and the rotations of both nodes relative to axes that follow the element. The type `number`
+ * computes first and second derivatives (automatic differentiation), so only the strains themselves
+ * are written.
  *
  *   c++ -std=c++17 -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK frame.cpp -o frame.so
  *   beamwork verify --element ./frame.so -f frame */
@@ -32,7 +32,7 @@ struct number {
     number(double v) : value(v) {}
 };
 
-/* f(x), from f and its derivatives at the value of x. */
+/* Returns f(x) from f and its derivatives at the value of x. */
 number function(const number &x, double f, double df, double ddf)
 {
     number y(f);
@@ -132,12 +132,12 @@ std::array<number, STRAINS> strains_of(double l, const node_state x[])
     /* Axes: x along the chord, y in the plane of it and of the mean of the nodes' y axes. */
     const vector ex = chord / now, normal = cross(ex, p.axis[1] + q.axis[1]),
                  ez = normal / sqrt(dot(normal, normal)), E[3] = {ex, cross(ez, ex), ez};
-    /* l times the sine of the rotation of a node about axis i. */
+    /* Returns l times the sine of the rotation of a node about axis i. */
     const auto turn = [&](const node &of, int i) {
         const int a = (i + 1) % 3, b = (i + 2) % 3;
         return (dot(E[b], of.axis[a]) - dot(E[a], of.axis[b])) * (l / 2);
     };
-    /* The elongation without cancellation, from the change of the square of the length. */
+    /* Returns the elongation, without cancellation, from the change of the squared length. */
     return {dot(du, chord + chord - du) / (now + l),
             turn(q, 0) - turn(p, 0),
             turn(p, 1),
@@ -160,7 +160,7 @@ status prepare(const element_request *request, element_data *out, fault *)
     out->length = l;
     out->C[0][0] = c.young * c.A / l;
     out->C[1][1] = c.shear_modulus * c.It / (l * l * l);
-    for (int i = 0; i < 2; i++) { /* Timoshenko beam; phi = 0: Bernoulli beam */
+    for (int i = 0; i < 2; i++) { /* Timoshenko beam, or Bernoulli beam if phi = 0 */
         const int k = 2 + 2 * i;
         const double phi = shear * EI[i] * F[i] / (c.shear_modulus * l * l);
         out->C[k][k] = out->C[k + 1][k + 1] = (4 + phi) / (1 + phi) * EI[i] / (l * l * l);

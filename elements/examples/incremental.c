@@ -42,7 +42,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* transverse stiffness: shear if requested, and the bending that a uniform curvature lacks */
+    /* transverse stiffness: shear if requested, and bending that a uniform curvature omits */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -85,7 +85,7 @@ static void series(const double t[3], double a, double b, double A[9])
             A[3 * i + j] = (i == j) * (1 - b * square) + a * skew[3 * i + j] + b * t[i] * t[j];
 }
 
-/* The rotation vector of R S^T, with a magnitude below pi. */
+/* Computes the rotation vector of R S^T, with a magnitude below pi. */
 static void increment(const double R[9], const double S[9], double t[3])
 {
     double A[9];
@@ -97,7 +97,7 @@ static void increment(const double R[9], const double S[9], double t[3])
         t[i] = axis[i] * (sine > 0 ? angle / sine : 1);
 }
 
-/* The rotation and the curvature at the point. */
+/* Rotation and curvature at the point. */
 static void at_point(const element_data *d, const node_state x[], const memory *m, double R[9],
                      double k[3])
 {

@@ -243,7 +243,7 @@ static void invert(int n, double A[])
     }
 }
 
-/* Computes the flexibility of the section. Sections that are rigid in shear have none there. */
+/* Computes the flexibility of the section. It is zero for rigid shear. */
 static void flexibility_of(const element_request *request, double F[SIX * SIX])
 {
     const section *c = request->section;

@@ -19,7 +19,7 @@ namespace
 constexpr int N = 12; /* degrees of freedom: displacements and rotations of two nodes */
 using Triad = std::array<double, 9>;
 
-/* --- what an element uses of its program --- */
+/* --- the classes of the program that an element uses --- */
 struct Vector {
     std::array<double, N> v{};
     double &operator()(int i) { return v[i]; }
@@ -55,7 +55,7 @@ Triad rotated(const double t[3], const Triad &B)
     return C;
 }
 
-/* --- an element as it is written for OpenSees: the strains are products of the chord and of the
+/* --- an element in the form required by OpenSees: the strains are products of the chord and of the
  * axes of the nodes, which are updated by increments of rotation and committed --- */
 class Beam
 {
@@ -106,7 +106,7 @@ class Beam
     [[maybe_unused]] static constexpr int values = 18;
 
   private:
-    /* weight times the product of an axis (node, axis) or the chord (node -1) with another axis */
+    /* A strain: weight times the product of an axis, or the chord (node -1), with another axis. */
     struct Term {
         int node, axis, other, second;
         double weight;
@@ -161,7 +161,7 @@ class Beam
     Matrix K;
 };
 
-/* --- the same element as it is written for Kratos, and what makes it one of OpenSees --- */
+/* --- the same element in the form required by Kratos, and its conversion to OpenSees --- */
 class KratosBeam : Beam
 {
   public:
@@ -216,7 +216,7 @@ struct Memory {
     double R[2][9], turned[2][3], element[ELEMENT::values];
 };
 
-/* The rotation vector of R S^T, with a magnitude below pi. */
+/* Computes the rotation vector of R S^T, with a magnitude below pi. */
 void increment(const double R[9], const double S[9], double t[3])
 {
     double A[9] = {};
@@ -268,7 +268,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 {
     const section &c = *request->section;
     const double l = request->length;
-    /* transverse stiffness: shear if requested, and the bending that a uniform curvature lacks */
+    /* transverse stiffness: shear if requested, and bending that a uniform curvature omits */
     const double shear = request->features & FEATURE_SHEAR ? l / c.shear_modulus : 0;
     *out = {{c.young * c.A / l, 1 / (shear * c.F[0] + l * l * l / (12 * c.young * c.Iz)),
              1 / (shear * c.F[4] + l * l * l / (12 * c.young * c.Iy)), c.shear_modulus * c.It / l,
@@ -300,7 +300,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     if (out->K != nullptr)
         std::fill(out->K, out->K + all * all, 0);
     for (int i = 0; i < N; i++) {
-        const int row = i + i / 6; /* the seventh coordinate of a node is warping */
+        const int row = i + i / 6; /* the seventh coordinate of a node is its warping amplitude */
         if (out->F != nullptr)
             out->F[row] = now.element.getResistingForce().v[i];
         for (int j = 0; j < N && out->K != nullptr; j++)

@@ -46,7 +46,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* transverse stiffness: shear if requested, and the bending that a uniform curvature lacks */
+    /* transverse stiffness: shear if requested, and bending that a uniform curvature omits */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);
@@ -93,8 +93,8 @@ static void series(const double t[3], double a, double b, double A[9])
             A[3 * i + j] = (i == j) * (1 - b * dot(t, t)) + a * skew[3 * i + j] + b * t[i] * t[j];
 }
 
-/* The rotation vector of R S^T that is nearest to the vector `last`. Vectors of the same rotation
- * differ by full turns. */
+/* Computes the rotation vector of R S^T that is nearest to the vector `last`. Vectors of the same
+ * rotation differ by full turns. */
 static void vector(const double R[9], const double S[9], const double last[3], double t[3])
 {
     const double pi = 3.14159265358979323846;

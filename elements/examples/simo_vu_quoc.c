@@ -102,7 +102,7 @@ static void series(const double t[3], double a, double b, double A[9])
             A[3 * i + j] = (i == j) * (1 - b * square) + a * skew[3 * i + j] + b * t[i] * t[j];
 }
 
-/* The rotation vector of R S^T, with a magnitude below pi. */
+/* Computes the rotation vector of R S^T, with a magnitude below pi. */
 static void increment(const double R[9], const double S[9], double t[3])
 {
     double A[9];
@@ -159,8 +159,8 @@ static void at_point(const element_data *d, const node_state x[], const memory *
         at->k[i] += m->k[i];
 }
 
-/* Virtual rotation of the point due to a spatial rotation increment e of a node, and its derivative
- * with respect to x: a = T dt and a' = T dt' + T' dt, where dt = T(p)^-1 e/2. side: -1 or 1. */
+/* Computes the virtual rotation a = T dt of the point due to a spatial rotation increment e of a
+ * node, and da/dx = T dt' + T' dt, where dt = T(p)^-1 e/2. side: -1 or 1. */
 static void turning(const element_data *d, const place *at, int node, const double e[3],
                     double a[3], double b[3])
 {
@@ -187,7 +187,7 @@ static void turning(const element_data *d, const place *at, int node, const doub
     }
 }
 
-/* Column j of the stiffness: the change of the forces F for the changes of the state. */
+/* Computes column j of the stiffness: the change of the forces F due to changes of the state. */
 static void column(const element_data *d, const place *at, const double slope[3], const double n[3],
                    const double m[3], int j, double K[N * N])
 {

@@ -26,7 +26,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section *c = request->section;
     const double l = request->length;
     (void)f;
-    /* Transverse flexibility: shear, if requested, and bending that uniform curvature lacks. */
+    /* Returns the transverse flexibility: shear if requested, and residual bending. */
     out->length = l;
     const double shear = request->features & FEATURE_SHEAR ? l / c->shear_modulus : 0;
     const double Fy = shear * c->F[0] + l * l * l / (12 * c->young * c->Iz);

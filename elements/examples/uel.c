@@ -86,7 +86,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     if (out->K != NULL)
         memset(out->K, 0, 4 * NODE_COORDINATES * NODE_COORDINATES * sizeof *out->K);
     for (int i = 0; i < N; i++) {
-        const int row = i + i / 6; /* the seventh coordinate of a node is warping, unused here */
+        const int row = i + i / 6; /* the seventh coordinate of a node is warping, not used here */
         if (out->F != NULL)
             out->F[row] = -rhs[i];
         for (int j = 0; j < N && out->K != NULL; j++)

@@ -176,7 +176,7 @@ class Words(unittest.TestCase):
                          [("verdicts", 1), ("new", 2)])
 
 
-# A formulation may be recommended for cases with these verdicts.
+# Verdicts with which a formulation may be recommended for a case.
 RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
 

@@ -48,7 +48,8 @@ class Agreed(unittest.TestCase):
         self.point.units = {"u": "m", "v": "m"}
 
     def test_recommendation(self):
-        """The lowest cost within the level of the agreed limit. Another model is not ranked."""
+        """The recommendation must be the formulation of lowest cost within the level of the agreed limit. Another model is not
+        ranked."""
         ranked = agreed.ranked(self.point)
         for level, best, n in ((0.01, "b", 1), (0.001, "a", 4)):
             found = answers.answer(ranked, answers.ALL, level)

@@ -37,7 +37,7 @@ def two():
 
 
 class Beside(unittest.TestCase):
-    """Other programs in the figure of error against run time."""
+    """Tests other programs in the figure of error against run time."""
 
     def setUp(self):
         mesh = data.Mesh(1, "ok", "", data.Clock(0, 1, 1, 1, 1), 8, 4, "", {}, cost=3e-3)
@@ -49,7 +49,7 @@ class Beside(unittest.TestCase):
             return peers.beside(self.site, types.SimpleNamespace(name=case), self.point, name)
 
     def test_times_are_converted(self):
-        """The run of the unit takes 1 in the record and costs 3 ms in the results."""
+        """The run that is the unit of time takes 1 in the record and costs 3 ms in the results."""
         one, = self.of(*two())
         self.assertEqual((one.name, [(t, e, row[0]) for t, e, row in one.points]), ("P, x", [(6e-3, 1e-3, 1), (12e-3, 1e-5, 2)]))
 
@@ -103,8 +103,8 @@ class Data(unittest.TestCase):
         self.assertEqual(peers_data.factors([read], 1e-2), peers_data.factors([live], 1e-2))
 
     def test_merged(self):
-        """Times of a second record of a case must be converted by a run of beamwork that both records contain. They
-        must be omitted if there is no such run."""
+        """Times of a second record of a case must be converted by a run of beamwork that both records contain. The
+        times must be omitted if there is no such run."""
         first, second = two()[0], record("first", series("a", [run(2, 1e-5, 1.0)], True), series("Q, y", [run(1, 1e-4, 3.0)]))
         second["unit"] = {"name": "a", "ours": True, "elements": 2}
         both = peers_data.merged(first, second)

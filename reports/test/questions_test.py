@@ -86,7 +86,8 @@ class Sizes(unittest.TestCase):
         self.assertTrue(math.isnan(index.tolerance_of([])))
 
     def test_default_choice(self):
-        """Neither the cheapest, which has a wrong limit, nor one that solves fewer problems."""
+        """The chosen formulation is neither the cheapest, which has a wrong limit, nor one that solves
+        fewer problems."""
         none = dict.fromkeys(GROUPS, 0)
         rows = [TrustRow("exact", none, solved=0.98, factor=2.0), TrustRow("fast", none, solved=0.975, factor=1.4),
                 TrustRow("wrong", none, solved=0.98, factor=1.0), TrustRow("narrow", none, solved=0.5, factor=1.0)]

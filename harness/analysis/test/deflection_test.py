@@ -1,5 +1,5 @@
-"""Displacements and rotations within members must be those of closed forms or of a node at the same place. Rotations
-of released ends must be those of closed forms."""
+"""Displacements and rotations within members must be those of closed forms or of a node at the same position.
+Rotations of released ends must be those of closed forms."""
 import math
 import unittest
 

@@ -248,8 +248,8 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """Returns the frequency [Hz] of a hinged Timoshenko beam. Its deflection and rotation are a sine and a cosine of
-    wave x, so its frequencies are those of a 2 x 2 eigenvalue problem."""
+    """Returns the frequency [Hz] of a hinged Timoshenko beam. The deflection is a sine of wave x and the rotation a cosine, so the
+    frequencies are those of a 2 x 2 eigenvalue problem."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia

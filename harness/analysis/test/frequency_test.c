@@ -156,7 +156,7 @@ static void loaded(const element_type *e, ask_tally *tally)
 }
 
 /* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. At
- * this load the frequency is zero. */
+ * this load, the frequency is zero. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

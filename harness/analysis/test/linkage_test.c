@@ -1,5 +1,5 @@
-/* Linkages with large rotations must move as rigid links do (four-bar linkage, universal joint),
- * and mechanisms that can move freely must be named. Springs must satisfy equilibrium and closed
+/* Linkages with large rotations (four-bar linkage, universal joint) must move like rigid links, and
+ * messages must name mechanisms that can move freely. Springs must satisfy equilibrium and closed
  * forms. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>

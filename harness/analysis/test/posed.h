@@ -316,7 +316,7 @@ typedef struct posed {
     scene_column column;
     int with;
     double times;
-    double size;  /* factor of all loads, strains and motions */
+    double size;  /* factor by which all loads, strains and motions are multiplied */
     double grown; /* additional factor of loads that are not functions of the path */
     double end;   /* end of the static path */
     double pull;

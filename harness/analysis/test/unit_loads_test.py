@@ -1,4 +1,4 @@
-"""Compliances about loaded states, compared with central differences of displacements under small additional loads."""
+"""Compares compliances about loaded states with central differences of displacements under small additional loads."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest

@@ -1,5 +1,4 @@
-"""Results that are requested or not: selections, partial results, default choices, and formulations that are not
-ranked."""
+"""Selections, partial results, default choices, and formulations that are not ranked."""
 import json
 import re
 import subprocess

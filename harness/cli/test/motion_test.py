@@ -208,7 +208,7 @@ class MotionError(ProgramTest):
                         self.assertLess(abs(one - other), 1e-3*largest)
 
     def test_unsupported_integrator(self):
-        """Integrators given by --integrator must reject what they reject in a scene."""
+        """Integrators given by --integrator must reject the same input as in a scene."""
         text = self.answered("motion", "--scene", ROOT / "cases" / "examples" / "servo.yaml", "-f", "collocation", "-n",
                              "1", "--integrator", "conserving", "--step", "0.01", code=1).stdout
         self.assertIn("(conserving): load motor has feedback, which supplies energy", " ".join(text.split()))

@@ -1,5 +1,5 @@
-"""Other models: scenes held in a plane, physics that a formulation does not support, and formulations that are not
-accepted yet."""
+"""Other models: scenes confined to a plane, physics that a formulation does not support, and formulations that are
+not accepted yet."""
 import csv
 import io
 import json

@@ -141,7 +141,7 @@ class Verify(SpreadTest):
                      "--into", parts)
         other = self.folder / "beamwork"
         content = bytearray(pathlib.Path(PROGRAM).read_bytes())
-        content[content.index(b"\4\0\0\0\x14\0\0\0\3\0\0\0GNU\0") + 16] ^= 1  # in the build id
+        content[content.index(b"\4\0\0\0\x14\0\0\0\3\0\0\0GNU\0") + 16] ^= 1  # within the build id
         other.write_bytes(content)
         other.chmod(0o755)
         self.refused(2, ["another build"], "merge", parts, program=str(other),

@@ -1,4 +1,5 @@
-/* The checksum, for all lengths and starts of the blocks that it folds, against that of zlib. */
+/* Compares the checksum with that of zlib, for all lengths and start positions of the folded
+ * blocks. */
 #include <gsl/gsl_test.h>
 #include <zlib.h>
 

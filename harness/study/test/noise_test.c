@@ -1,5 +1,5 @@
-/* The scatter of the values on the finest mesh is measured on request. It must be twice the larger
- * of two differences, and be due only to rounding. */
+/* The scatter of the values on the finest mesh is measured on request. This scatter must be twice
+ * the larger of two differences, and be due only to rounding. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

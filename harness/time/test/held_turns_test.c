@@ -1,5 +1,5 @@
-/* If rotations of a node are fixed, the answers (within 1e-10) and the refusals must not depend on
- * whether their unknowns are eliminated or kept. */
+/* If rotations of a node are fixed, the results (within 1e-10) and the rejections must not depend
+ * on whether the unknowns of these rotations are eliminated or kept. */
 #include <math.h>
 #include <stdio.h>
 

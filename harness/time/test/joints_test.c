@@ -181,7 +181,8 @@ static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0: one body; 1: two bodies that are together equal to it; 2: bodies at offsets */
+    /* 0: one body; 1: two bodies that together are equal to the one body; 2: bodies at offsets */
+    int rod;
 } how;
 
 static int profile_of(scene *s, double E, double mass)

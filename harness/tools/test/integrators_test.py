@@ -1,4 +1,4 @@
-"""Tests of integrators.py."""
+"""Tests integrators.py."""
 import csv
 import json
 import sys

@@ -41,7 +41,7 @@ class Several(PeerTest):
         return found.runs[0]
 
     def test_analyses_are_independent(self):
-        """Each analysis must have the result that it has alone."""
+        """Each analysis must have the same result as if it were the only analysis."""
         for peer, name in peers.chosen(["opensees:forceBeamColumn", "opensees:forceBeamColumnCSBDI", "exudyn:exact_3d",
                                         "kratos", "xara:force", "xara:exact_3"]):
             with self.subTest(peer=peer, element=name):
@@ -57,8 +57,8 @@ class Several(PeerTest):
                     self.assertAlmostEqual(run["values"]["start"] / (8 / 6e5), 1, delta=5e-3 if peer == "exudyn" else 2e-5)
 
     def test_linear_with_large_loads(self):
-        """Linear results must be proportional to the loads, also the reactions, which are in balance with the loads on
-        the undeformed structure."""
+        """Linear results must be proportional to the loads. This includes reactions, which must be in equilibrium
+        with the loads on the undeformed structure."""
         for peer in peers.names():
             for name, element in peers.load(peer).ELEMENTS.items():
                 if "linear" in element.analyses:
@@ -79,8 +79,8 @@ class Several(PeerTest):
 class Supports(PeerTest):
 
     def test_two_rotations_held(self):
-        """Reactions must be those of the beam, for each pair of rotations that a support holds: the moments about the
-        supported end are in balance."""
+        """For each pair of rotations that a support fixes, the reactions must be in equilibrium: the moments about
+        the supported end must balance."""
         for peer, name in peers.chosen(["exudyn:exact_3d", "opensees:forceBeamColumn", "xara:exact_3"]):
             for pair in (("rx", "ry"), ("rx", "rz"), ("ry", "rz")):
                 with self.subTest(peer=peer, element=name, held=pair):
@@ -109,7 +109,7 @@ class Supports(PeerTest):
 
     def test_arc(self):
         """A quarter of a circle under a tip force in its plane must have the deflection and rotation of Castigliano's
-        theorem; an element that is not free of stress in the curved state must be refused."""
+        theorem. Elements with stress in the initial curved state must be rejected."""
         made = cantilever({"path": ANALYSES["path"]})
         made.sections["bar"]["constants"]["A"] = 0.1
         made.nodes["tip"]["at"] = [2, 2, 0]
@@ -132,7 +132,7 @@ class Supports(PeerTest):
 
     def test_driven_rotation(self):
         """A clamp that turns by 1.2 rad must turn the beam by this angle, in any number of load steps. The driver of
-        Kratos must refuse it."""
+        Kratos must reject this rotation."""
         for peer, name in peers.chosen(["exudyn:exact_2d", "opensees:elasticBeamColumn", "xara:exact_3", "kratos"]):
             with self.subTest(peer=peer, element=name):
                 made = cantilever({"path": {"static": {"stations": [1]}}})

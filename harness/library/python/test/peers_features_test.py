@@ -1,4 +1,5 @@
-"""Features of peers, measured on small scenes: the closed forms, the words, and the page that is made of them."""
+"""Features of peers, measured on small scenes: tests the closed forms, the words for the outcomes, and the page
+with the results."""
 import importlib
 import json
 import unittest

@@ -1,5 +1,5 @@
-"""Keys of scene files that drivers of other programs read: small scenes with closed forms. Every element that reads the key must give
-these values. Programs that are not installed are skipped by name."""
+"""Keys of scene files that drivers of other programs read: small scenes with closed forms. Every element that supports a key must
+give the values of its scene. Programs that are not installed are skipped by name."""
 import math
 import unittest
 
@@ -53,7 +53,7 @@ def settled():
 
 
 def own_axes():
-    """A load along the y axis of a member that stands."""
+    """A load along the y axis of a vertical member."""
     made = cantilever()
     made.nodes["tip"]["at"] = [0, L, 0]
     made.members["bar"]["y"] = [-1, 0, 0]
@@ -62,7 +62,7 @@ def own_axes():
 
 
 def hinged():
-    """A bar on two pins, whose ends turn about z only."""
+    """A bar on two pins, whose ends rotate about z only."""
     pin = {"hold": ["ux", "uy", "uz"], "rotation": {"sequence": [{"axis": "z", "angle": "free"}]}}
     made = cantilever(pin, **pin)
     made.loads["M"] = {"moment": [0, 0, 7.0], "on": "tip"}
@@ -70,7 +70,7 @@ def hinged():
 
 
 def sprung():
-    """A bar on springs at both ends: it moves and turns as a rigid body, and bends."""
+    """A bar on springs at both ends, which bends and moves as a rigid body."""
     made = cantilever({"hold": ["uz", "rx", "ry"]})
     made.nodes["root"]["hold"] = ["ux", "uz", "rx", "ry"]
     k, r = 0.1 * EIZ / L**3, 0.3 * EIZ / L
@@ -85,7 +85,7 @@ def sprung():
 
 
 def propped():
-    """A clamped bar that a hinge joins with a second one, clamped too: the first one carries the load of the second half."""
+    """Two clamped bars that are connected by a hinge: the first bar carries the load of the second half."""
     made = cantilever()
     made.nodes["tip"] = {"at": [L, 0, 0]}
     made.nodes["end"] = {"at": [2 * L, 0, 0], "hold": "all"}
@@ -96,7 +96,7 @@ def propped():
 
 
 def pinned():
-    """A bar with hinges at both ends; the rotations of the second node depend on nothing."""
+    """A bar with hinges at both ends; nothing resists the rotations of the second node."""
     made = cantilever({"hold": ["ux", "uy", "uz"]})
     made.members["bar"]["release"] = {"from_": ["ry", "rz"], "to": ["rx", "ry", "rz"]}
     made.loads["q"] = {"distributed": [0, 6.0, 0], "on": "bar"}
@@ -104,7 +104,7 @@ def pinned():
 
 
 def fixed():
-    """A bar between two clamps, from one of which a hinge frees it."""
+    """A bar between two clamps, with a hinge at one of them."""
     made = cantilever({"hold": "all"})
     made.members["bar"]["release"] = {"from_": ["rz"]}
     made.loads["q"] = {"distributed": [0, 6.0, 0], "on": "bar"}
@@ -112,7 +112,8 @@ def fixed():
 
 
 def tapered(linear):
-    """A wedge, half as thick at its tip as at its root. linear: with an axial force that would stiffen it."""
+    """A wedge that is half as thick at its tip as at its root. linear: adds an axial force, which would stiffen the wedge in a
+    nonlinear analysis."""
     made = cantilever()
     for name, thickness in (("bar", 0.02), ("thin", 0.01)):
         made.sections[name] = {"rectangle": {"width": 0.03, "thickness": thickness}, "given": {"Iw": 0}, "young": E, "shear_modulus": G}
@@ -166,7 +167,7 @@ class Keys(PeerTest):
 
 
     def test_buckling_with_hinges(self):
-        """Critical loads of members with hinges, which do not converge well in MYSTRAN and OpenSees, must be refused."""
+        """Critical loads of members with hinges, which converge slowly in MYSTRAN and OpenSees, must be rejected."""
         made, _ = propped()
         made.analyses["all"] = {"buckling": {}}
         made.quantities["P"] = {"critical_factor": {"analysis": "all"}, "unit": "1"}

@@ -11,7 +11,8 @@ YOUNG, SHEAR, DENSITY, AREA = 2e11, 8e10, 8000.0, 1e-2
 
 
 def bar(element, turn=np.eye(3), reverse=False, hold="all", about=False, **section):
-    """Returns a bar of 1 m along x before it is turned, with its modes. section: constants that differ."""
+    """Returns a bar of 1 m, initially along x, with its modal analysis. section: constants that differ from the
+    defaults."""
     made = bw.Scene("modes")
     shear = {"D": [AREA, 0, 0, 0, AREA, 0, 0, 0, 1]} if "shear" in element.offers else {}
     constants = {"A": AREA, "Iy": 4e-5, "Iz": 1e-5, "It": 2e-5, "Ip": 5e-5, "Iw": 0, **shear, **section}
@@ -43,7 +44,7 @@ class Modes(PeerTest):
                         check(peer, name, element)
 
     def solved(self, peer, name, made, n=32, refused=""):
-        """Returns the values. refused: part of a permitted refusal, for which the test is skipped."""
+        """Returns the values. refused: part of the message of an allowed rejection, for which the test is skipped."""
         found = peers.solve(self.data(made), peer, name, [n], rounds=1)
         if found.missing:
             self.skipTest(found.missing)
@@ -65,9 +66,8 @@ class Modes(PeerTest):
         return [q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 16)["quantities"]]
 
     def test_cantilever(self):
-        """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of
-        beamwork, whose limits other tests compare with closed forms. The torsional one is sqrt(G It/(rho Ip))/(4
-        L)."""
+        """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of beamwork,
+        whose limits other tests compare with closed forms. The torsional frequency is sqrt(G It/(rho Ip))/(4 L)."""
         def check(peer, name, element):
             ratio = 1.0 if peer == "kratos" else 0.5
             made = bar(element, Ip=5e-5 / ratio) if "plane only" not in element.summary else bar(element)
@@ -264,8 +264,8 @@ class Compliance(PeerTest):
     WORDS = ("sheet_cantilever", "--set", "warping=0", "--set", "trapeze=0", "--set", "shear_factor=0.8333333333")
 
     def test_sheet(self):
-        """Exudyn must have the compliances of beamwork in the deflected sheet, along it and across it; the beam in space
-        also those out of the plane."""
+        """In the deflected sheet, Exudyn must have the compliances of beamwork along and across the sheet; the beam in
+        space must also have those out of the plane."""
         data = json.loads(self.answered("scene", *self.WORDS, "--format", "json").stdout)
         record = self.record("solve", *self.WORDS, "-f", "collocation", "-n", 8)
         ours = {q["quantity"]: q["value"] for q in record["quantities"] if "value" in q}

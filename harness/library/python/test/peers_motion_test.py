@@ -18,7 +18,7 @@ HELD = ["ux", "uy", "uz", "rx", "ry", "rz"]
 
 
 def bar(stiffness=EI, turn=np.eye(3), hold=tuple(HELD), radius=2e-3):
-    """Returns a bar along x before it is turned. radius: of gyration, relative to the length."""
+    """Returns a bar that is initially along x. radius: radius of gyration relative to the length."""
     made = bw.Scene("motion")
     young = stiffness / (radius * LENGTH)**2 / MASS  # the area is MASS, and the density 1
     shear_modulus, Iy = 0.3 * young, stiffness / young
@@ -178,7 +178,7 @@ class Against(MotionTest):
         return {q["quantity"]: q["value"] for q in solution["quantities"]}
 
     def test_large(self):
-        """In large motions in space, with supports and free, displacements, velocities, reactions and energy must
+        """In large motions in space, with and without supports, displacements, velocities, reactions and energy must
         agree."""
         def check(peer, name, space):
             if not space:
@@ -210,7 +210,7 @@ class Against(MotionTest):
         self.each(check)
 
     def test_plane(self):
-        """In the plane, the motion with a body at a node, gravity on all, and a drive must agree."""
+        """Motions in a plane must agree for a structure with a body at a node, gravity and a driver."""
         def check(peer, name, _):
             made = bar(radius=0.05)
             made.nodes["tip"].update(mass=1.0, inertia=[0.2, 0.2, 0.2, 0, 0, 0])
@@ -257,7 +257,8 @@ class Against(MotionTest):
 
 
 class Steps(PeerTest):
-    """The time step must be halved until its error is small. The driver of this test has an error of order 2 in the step."""
+    """The time step must be halved until the time-integration error is small. The driver of this test has an error of order
+    2 in the step."""
 
     def run_motion(self, error="1.0", elements=(4, ), when=None, **of):
         code = ("import math\nfrom .data import *\nNAME = PROGRAM = 'fake'\n"
@@ -298,14 +299,14 @@ class Steps(PeerTest):
             self.assertAlmostEqual(y, 1 - math.cos(t), delta=1e-4)
 
     def test_bound(self):
-        """A larger error of the driver must give shorter steps, and an error that does not become smaller must be a
+        """A larger error of the driver must lead to shorter steps, and an error that does not decrease must be a
         failure."""
         few, many = (self.run_motion(error)["iterations"] for error in ("0.1", "10.0"))
         self.assertGreater(many, 4 * few)
         self.assertIn("when the step is halved", self.run_motion("(-1)**round(math.log2(n))/h**2")["failure"])
 
     def test_bound_follows_the_mesh(self):
-        """The error in time must be small compared with the change from the mesh before."""
+        """The time-integration error must be small compared with the change from the previous mesh."""
         self.assertGreater(self.run_motion(elements=(4, 8))["iterations"], self.run_motion(elements=(4, ))["iterations"])
 
 

@@ -97,14 +97,15 @@ class Ranking(unittest.TestCase):
         self.assertEqual([row["name"] for row in self.ranked(0.1, *given)["rows"]], ["b", "a"])
 
     def test_reasons(self):
-        """Each program that is not compared must be listed with the reason."""
+        """Every program that is not compared must be listed with the reason."""
         refused = series("b", [{"elements": 1, "refusal": "warping: none"}])
         text = tables.text(record(series("a", [run(1, 1e-3, 1.0)], True), refused, series("d", [], missing="d is not installed")))
         self.assertIn("not compared: b: warping: none", text)
         self.assertIn("not compared: d: d is not installed", text)
 
     def test_without_times(self):
-        """Recorded results without times must be ranked by work and never be ahead."""
+        """Recorded results without times must be ranked by work, and must never be listed as faster than
+        formulations."""
         old = series("old", [{**run(1, 1e-3, 1.0), "times": {}}])
         found = self.ranked(1e-2, old, series("a", [run(1, 1e-3, 1.0)], True))
         self.assertEqual(([row["name"] for row in found["rows"]], found["ahead"]), (["a", "old"], ""))

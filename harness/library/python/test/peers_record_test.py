@@ -1,4 +1,4 @@
-"""A new run must give the recorded comparison (reference/peers), and the same diagram. Programs that are not installed, or
+"""A new run must reproduce the recorded comparison (reference/peers) and its diagram. Programs that are not installed, or
 installed in another version, are skipped by name."""
 import importlib
 import json
@@ -59,7 +59,8 @@ class Live(ModuleTest):
             self.same_diagrams(place)
 
     def same(self, old, new):
-        """Counts are equal; for formulations of beamwork, which may be improved, only the unknowns."""
+        """Counts must be equal. For formulations of beamwork, which may be improved, only the numbers of unknowns must be
+        equal."""
         runs = {run["elements"]: run for run in old["runs"]}
         self.assertEqual([run["elements"] for run in new["runs"]], list(self.meshes))
         for run in new["runs"]:

@@ -13,7 +13,7 @@ class Turns(unittest.TestCase):
 
     @unittest.skipIf(bw is None, "needs a library without sanitizers")
     def test_order(self):
-        """In each round, each program must be asked once, and all processes must end."""
+        """In each round, each program must solve the mesh once, and all processes must end."""
         log = []
 
         class Silent:

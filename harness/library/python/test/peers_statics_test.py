@@ -15,7 +15,7 @@ from harness.library.python.test.peers_test import PeerTest
 
 peers = None if bw is None else importlib.import_module("beamwork.peers")
 data, path = (None, None) if bw is None else (importlib.import_module(f"beamwork.peers.{name}") for name in ("data", "_path"))
-ANGLE = 0.3  # of the bars of the frame of von Mises
+ANGLE = 0.3  # [rad] inclination of the bars of the frame of von Mises
 
 
 def load(w):
@@ -29,7 +29,7 @@ LIMIT = math.sin(ANGLE) - math.sqrt(math.cos(ANGLE)**(4 / 3) - math.cos(ANGLE)**
 
 
 class Truss(path.Path if path else object):
-    """The frame of von Mises, and a coordinate that turns back at half of the deflection."""
+    """The frame of von Mises, with a coordinate that reverses its direction at half of the deflection."""
     places = (("apex", 1), ("other", 0))
 
     def begin(self):
@@ -80,7 +80,7 @@ class Walk(ModuleTest):
         begun = []
 
         class Stiff(Truss):
-            """Has no solution if a step is longer than 0.06."""
+            """A path that has no solution if a step is longer than 0.06."""
 
             def begin(self):
                 super().begin()
@@ -102,7 +102,7 @@ class Walk(ModuleTest):
 class Driven(PeerTest):
 
     def test_rotation(self):
-        """A driven rotation must turn the structure, or be refused."""
+        """A driven rotation must rotate the structure or be rejected."""
         made, length = bw.Scene("driven"), 0.5
         made.sections["bar"] = {"constants": {"A": 5e-6, "Iy": 1e-9, "Iz": 1e-9, "It": 1e-9, "Ip": 2e-9}, "young": 2e11, "shear_modulus": 8e10}
         made.nodes["root"] = {"at": [0, 0, 0], "hold": ["ux", "uy", "uz", "rx", "ry"], "drive": {"rz": "turn"}}
@@ -166,7 +166,7 @@ class Continuation(ModuleTest):
                 self.assertAlmostEqual(values["deflection_at_limit_back"] / 58.216815, 1, delta=0.01)
 
     def test_refusals(self):
-        """What a driver cannot follow must be refused by name."""
+        """Drivers must reject paths that they cannot follow, and name the reason."""
         text = self.answered("scene", "snap_through").stdout
         place = self.folder / "scene.yaml"
         for old, new, word in (("on: apex}", "on: apex, path: [0, 1], factor: [0, 1]}", "proportional"),
@@ -226,7 +226,7 @@ class Loads(ModuleTest):
 
 
 class Released(ModuleTest):
-    """A driver that frees all driven components must reject a compliance with one of them held."""
+    """A driver that releases all driven components must reject a compliance for which one of them is fixed."""
 
     def test_held_component(self):
         text = self.answered("scene", "sheet_cantilever").stdout.replace("omit: [wagner_torque]", "omit: [wagner_torque, warping, trapeze]")
@@ -304,8 +304,8 @@ class MBDyn(ModuleTest):
         self.assertAlmostEqual(values["u_x"] / -1.3586446e-3, 1, delta=1e-4)
 
     def test_body(self):
-        """A bar is clamped at one end; a body at the other end is turned by a prescribed rotation vector. The moment
-        must be 4 EI/L or GJ/L times the angle."""
+        """A bar is clamped at one end, and a body at the other end rotates by a prescribed rotation vector. The moment must
+        be 4 EI/L or GJ/L times the angle."""
         for axis, stiffness in ((0, 2), (2, 4)):
             made = self.cantilever("body")
             made.nodes["hub"] = {"at": [1, 0, 0], "rotation": {"vector": ["m0", "m1", "m2"]}}

@@ -18,7 +18,7 @@ TILT = ((0, 1, 0), (1, 0, 0), (0, 0, -1)), np.array([[2, -1, 2], [2, 2, -1], [-1
 
 
 def scene(element, turn=np.eye(3), space=True, reverse=False, small=1e-4, unit=1.0, kind=""):
-    """Returns a cantilever as data: along x before it is turned. small: factor of the loads. unit: factor of lengths."""
+    """Returns a cantilever as data, initially along x. small: factor of the loads. unit: factor of lengths."""
     kind = kind or ("linear" if "linear" in element.analyses else "static")
     made = bw.Scene("contract")
     shear = {"D": [SECTION["GA"] / 80e9, 0, 0, 0, SECTION["GA"] / 80e9, 0, 0, 0, 1]} if "shear" in element.offers else {}
