@@ -36,6 +36,25 @@ double along_path_value(const scene_driver *d, double path)
     return interpolate(d->stations, d->path, d->value, path);
 }
 
+static int has_station(int stations, const double path[], double from, double to)
+{
+    int between = 0;
+    for (int i = 0; i < stations; i++)
+        between |= path[i] > from && path[i] < to;
+    return between;
+}
+
+int along_path_is_straight(const scene *s, double from, double to)
+{
+    int bent = 0;
+    for (int i = 0; i < s->loads; i++)
+        bent |= has_station(s->load[i].stations, s->load[i].path, from, to);
+    for (int d = 0; d < s->drivers; d++)
+        bent |= s->driver[d].value != NULL &&
+                has_station(s->driver[d].stations, s->driver[d].path, from, to);
+    return !bent;
+}
+
 /* Range of the path in which loads or drivers change, or begin > end if there is no such range. */
 typedef struct changes {
     double begin, end;

@@ -1170,6 +1170,8 @@ double along_path_rate(const scene_load *, double path);
 /* Returns the value [m or rad] of a driver that is given by stations, constant before the first and
  * after the last. */
 double along_path_value(const scene_driver *, double path);
+/* Returns 1 if no load factor or prescribed value has a station between `from` and `to`. */
+int along_path_is_straight(const scene *, double from, double to);
 /* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", "; no load changes
  * along the path ...", or "" if a load without stations or an unknown driver acts. `acting`: number
  * of the load case or combination (scene_acting_of). */

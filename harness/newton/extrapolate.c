@@ -123,7 +123,9 @@ static void keep_continuing(const double value[], guesses *g)
         g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
-static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
+/* next: the state at `path`; NULL: not known yet. */
+static void keep_smooth(const equations *eq, const model_state *const at[],
+                        const model_state *next, double path, guesses *g)
 {
     const model *m = eq->m;
     double value[MODEL_EXTRAPOLATED + 1];
@@ -131,8 +133,9 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
         const scene_driver *driver = &model_scene(m)->driver[d];
         if (driver->value == NULL)
             continue;
-        for (int i = 0; i <= g->most; i++)
-            value[i] = loads_driver_value(eq, driver, i < g->most ? at[i]->path : path);
+        for (int i = 0; i < g->most; i++)
+            value[i] = at[i]->driver[d];
+        value[g->most] = next != NULL ? next->driver[d] : loads_driver_value(eq, driver, path);
         keep_continuing(value, g);
     }
     for (int l = 0; l < model_scene(m)->loads; l++) {
@@ -185,7 +188,7 @@ static int turns_by_itself(const model *m, int vertex)
 }
 
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
-                  double path, guesses *g)
+                  const model_state *next, double path, guesses *g)
 {
     g->most = most;
     for (int k = 2; k <= most; k++) {
@@ -194,19 +197,38 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
         if (g->good[k])
             lagrange(k, at + most - k, path, g->weight[k]);
     }
-    keep_smooth(eq, at, path, g);
-}
-
-static void add_weighted(double weight, size_t size, const double x[], double sum[])
-{
-    for (size_t k = 0; k < size; k++)
-        sum[k] += weight * x[k];
+    keep_smooth(eq, at, next, path, g);
 }
 
 enum { PART = 8 };
 
-/* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block +
- * from, over `size` numbers. */
+/* Adds sum_i weight[i] x_i to sum[size], where x_i = at[i]->block + from. */
+static inline __attribute__((always_inline)) void add_weighted(int count, const double weight[],
+                                                               const model_state *const at[],
+                                                               ptrdiff_t from, size_t size,
+                                                               double sum[])
+{
+    for (int i = 0; i < count; i++) {
+        const double *x = at[i]->block + from;
+        for (size_t k = 0; k < size; k++)
+            sum[k] += weight[i] * x[k];
+    }
+}
+
+/* Sets the numbers `from` to `end` - 1 of the block of `out` to the weighted sum. */
+static void weighted_sum(int count, const double weight[], const model_state *const at[],
+                         size_t from, size_t end, model_state *out)
+{
+    for (; from + PART <= end; from += PART) {
+        double sum[PART] = {0};
+        add_weighted(count, weight, at, (ptrdiff_t)from, PART, sum);
+        memcpy(out->block + from, sum, sizeof sum);
+    }
+    memset(out->block + from, 0, (end - from) * sizeof *out->block);
+    add_weighted(count, weight, at, (ptrdiff_t)from, end - from, out->block + from);
+}
+
+/* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count| over `size` numbers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],
                                                                ptrdiff_t from, size_t size,
@@ -215,11 +237,7 @@ static inline __attribute__((always_inline)) double largest_of(int count, const 
     double sum[PART];
     for (size_t k = 0; k < size; k++)
         sum[k] = -at[count]->block[from + (ptrdiff_t)k];
-    for (int i = 0; i < count; i++) {
-        const double *x = at[i]->block + from;
-        for (size_t k = 0; k < size; k++)
-            sum[k] += weight[i] * x[k];
-    }
+    add_weighted(count, weight, at, from, size, sum);
     for (size_t k = 0; k < size; k++)
         largest = fabs(sum[k]) > largest ? fabs(sum[k]) : largest;
     return largest;
@@ -240,7 +258,7 @@ static void extrapolate_errors(const equations *eq, int most, const model_state 
 {
     const model *m = eq->m;
     guesses g;
-    weigh(eq, 2, most, at, at[most]->path, &g);
+    weigh(eq, 2, most, at, at[most], at[most]->path, &g);
     g.good[1] = 1;
     g.weight[1][0] = 1;
     for (int k = 1; k <= most; k++) {
@@ -261,18 +279,14 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     guesses g;
     if (count < 2)
         return 0;
-    weigh(eq, count, count, at, path, &g);
+    weigh(eq, count, count, at, NULL, path, &g);
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];
     const size_t before = (size_t)(out->history - out->block),
                  after = before + (size_t)model_elements(m) * (size_t)model_history(m);
-    memset(out->block, 0, before * sizeof *out->block);
-    memset(out->block + after, 0, (out->size - after) * sizeof *out->block);
-    for (int i = 0; i < count; i++) {
-        add_weighted(weight[i], before, at[i]->block, out->block);
-        add_weighted(weight[i], out->size - after, at[i]->block + after, out->block + after);
-    }
+    weighted_sum(count, weight, at, 0, before, out);
+    weighted_sum(count, weight, at, after, out->size, out);
     for (int v = 0; v < model_vertices(m); v++)
         if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);
@@ -288,9 +302,11 @@ int extrapolate_between(const equations *eq, const model_state *from, const mode
     const model *m = eq->m;
     const model_state *const ends[] = {from, to};
     const double step = to->path - from->path;
-    for (int i = 1; i < PARTS; i++) {
+    const int straight =
+        !eq->loading.in_time && along_path_is_straight(model_scene(m), from->path, to->path);
+    for (int i = 1; i < PARTS && !straight; i++) {
         guesses g;
-        weigh(eq, 2, 2, ends, from->path + step * i / PARTS, &g);
+        weigh(eq, 2, 2, ends, NULL, from->path + step * i / PARTS, &g);
         if (!g.good[2])
             return 0;
     }
