@@ -109,7 +109,9 @@ static inline __attribute__((always_inline)) void mul_rows(int m, int n, const d
 
 void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
 {
-    if (n == 14)
+    if (n == 15)
+        mul_rows(m, 15, A, x, y);
+    else if (n == 14)
         mul_rows(m, 14, A, x, y);
     else if (n == 8)
         mul_rows(m, 8, A, x, y);
