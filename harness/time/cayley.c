@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/real.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
@@ -257,21 +258,25 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-typedef struct node_columns {
-    double by_phi[9], r_common[9], phi_common[9];
-} node_columns;
+/* Stores A as rows of four numbers, the last of which is zero. */
+static void pad_rows(const double A[9], double rows[12])
+{
+    for (int i = 0; i < 12; i++)
+        rows[i] = i % 4 < 3 ? A[3 * (i / 4) + i % 4] : 0;
+}
 
 static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayley_point *p, int j,
-                       node_columns *out)
+                       cayley_columns *out)
 {
     const double at = p->at, *y = s->y + N * j;
-    double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
+    double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9], by_phi[9],
+        r_common[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
     rotation_rates_jacobian(back, Jl);
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
-    mat3_mul(Jl, d->own[j], out->by_phi);
+    mat3_mul(Jl, d->own[j], by_phi);
     mat3_mul(Jl, d->common[j], more);
     mat3_mul(p->turn[j], d->spin, turned);
     mat3_mul_vec(s->G, s->Dn[j], first);
@@ -280,46 +285,25 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     mat3_transpose_mul(s->G, apart, carried);
     for (int i = 0; i < 9; i++) {
         apart[i] = at * carried[i] - (1 - at) * swept[i];
-        out->phi_common[i] = more[i] + turned[i];
+        more[i] += turned[i];
     }
-    mat3_mul(apart, d->spin, out->r_common);
-}
-
-static void add_row(double factor, const double a[3], const double B[9], double out[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] += factor * (a[0] * B[i] + a[1] * B[3 + i] + a[2] * B[6 + i]);
+    mat3_mul(apart, d->spin, r_common);
+    pad_rows(by_phi, out->by_phi);
+    pad_rows(r_common, out->r_common);
+    pad_rows(more, out->phi_common);
 }
 
 void cayley_slopes_columns(const cayley_step *s, const cayley_slopes *d, const cayley_point *p,
                            double weight, int rows, const double A[], double out[])
 {
-    const int n = N * s->nodes;
-    node_columns of[ELEMENT_MAX_NODES];
-    double back[9];
+    cayley_columns of[ELEMENT_MAX_NODES];
+    double back[9], padded[12];
     for (int j = 0; j < s->nodes; j++)
         columns_of(s, d, p, j, &of[j]);
     for (int i = 0; i < 9; i++)
         back[i] = s->G[3 * (i % 3) + i / 3];
-    for (int r = 0; r < rows; r++) {
-        const double *a = A + (size_t)(r * n);
-        double *to = out + (size_t)(r * n), pulled[3] = {0, 0, 0}, turned[3] = {0, 0, 0};
-        for (int j = 0; j < s->nodes; j++) {
-            add_row(s->share, a + N * j, of[j].r_common, turned);
-            add_row(s->share, a + N * j + 3, of[j].phi_common, turned);
-            for (int i = 0; i < 3; i++)
-                pulled[i] += s->share * a[N * j + i];
-        }
-        for (int j = 0; j < s->nodes; j++) {
-            const double *at = a + N * j;
-            const double alone[3] = {at[0] - pulled[0], at[1] - pulled[1], at[2] - pulled[2]};
-            add_row(weight * p->at, alone, back, to + N * j);
-            add_row(weight, at + 3, of[j].by_phi, to + N * j + 3);
-            for (int i = 0; i < 3; i++)
-                to[N * j + 3 + i] += weight * turned[i];
-            to[N * j + 6] += weight * p->at * at[6];
-        }
-    }
+    pad_rows(back, padded);
+    REAL_CHOSEN(cayley_rows)(s->nodes, s->share, p->at, weight, of, padded, rows, A, out);
 }
 
 static void add_block(int n, int row, int column, double factor, const double A[9], double K[])

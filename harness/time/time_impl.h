@@ -491,6 +491,17 @@ void cayley_slopes_of(const cayley_step *, cayley_slopes *);
  * c and da. */
 void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cayley_point *,
                            double weight, int rows, const double A[], double out[]);
+/* Derivatives of x(s) at a node: of the rotation with respect to phi of the node, and of position
+ * and rotation with respect to the mean of c. Rows of four numbers, the last of which is zero. */
+typedef struct cayley_columns {
+    double by_phi[12], r_common[12], phi_common[12];
+} cayley_columns;
+/* Computes the rows of cayley_slopes_columns. `back` contains rows of four numbers of G^T. The
+ * second function is for processors with AVX2 and gives bit-for-bit identical results. */
+typedef void cayley_rows_function(int nodes, double share, double at, double weight,
+                                  const cayley_columns[], const double back[12], int rows,
+                                  const double A[], double out[]);
+cayley_rows_function cayley_rows_plain, cayley_rows_avx2;
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
