@@ -26,6 +26,7 @@ def _module(name):
 
 ranking = _module("_ranking.py")
 LEVELS = ranking.LEVELS
+program_of = ranking.program_of
 
 
 def read(path):
@@ -41,34 +42,11 @@ def read(path):
 
 def records(live=(), folder=RECORDS):
     """Returns the recorded comparisons, in which those of the files `live` replace those of the same case and parameters."""
-    found = {}
-    for path in sorted(p for p in pathlib.Path(folder).glob("*.json") if p.name != FEATURES):
-        record = {**read(path), "file": path.name}
-        key = record["case"], record["parameters"]
-        found[key] = merged(found[key], record) if key in found else record
+    found = ranking.by_case({**read(path), "file": path.name} for path in sorted(pathlib.Path(folder).glob("*.json")) if path.name != FEATURES)
     for path in live:
         record = {**read(path), "file": pathlib.Path(path).name}
         found[record["case"], record["parameters"]] = record
     return [record for _, record in sorted(found.items())]
-
-
-def merged(first, second):
-    """Returns the first record with the peers of the second that it does not contain. The unit of time of the second record
-    is a run of beamwork; if the first contains this run, times are converted by it, and otherwise the peers have no times."""
-    names = {s["name"] for s in first["series"]}
-    factor = next((run["times"][""] for s in first["series"] if s["name"] == second["unit"]["name"] and s["ours"]
-                   for run in s["runs"] if run["elements"] == second["unit"]["elements"] and run.get("times")), None)
-
-    def converted(run):
-        times = {a: t * factor for a, t in run["times"].items()} if factor and "times" in run else {}
-        return {**run, "times": times} if "errors" in run else run
-    new = [{**s, "runs": [converted(run) for run in s["runs"]]} for s in second["series"] if not s["ours"] and s["name"] not in names]
-    return {**first, "series": first["series"] + new}
-
-
-def program_of(series):
-    """Returns the program of a series: "Exudyn" for "Exudyn, exact_2d", "beamwork" for a formulation."""
-    return "beamwork" if series["ours"] else series["name"].split(", ")[0]
 
 
 def known(record):

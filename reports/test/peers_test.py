@@ -107,11 +107,11 @@ class Data(unittest.TestCase):
         times must be omitted if there is no such run."""
         first, second = two()[0], record("first", series("a", [run(2, 1e-5, 1.0)], True), series("Q, y", [run(1, 1e-4, 3.0)]))
         second["unit"] = {"name": "a", "ours": True, "elements": 2}
-        both = peers_data.merged(first, second)
+        both = peers_data.ranking.merged(first, second)
         self.assertEqual([s["name"] for s in both["series"]], ["a", "P, x", "Q, y"])
         self.assertEqual(both["series"][-1]["runs"][0]["times"]["bent"], 3.0 * first["series"][0]["runs"][1]["times"][""])
         second["unit"]["elements"] = 7
-        self.assertEqual(peers_data.merged(first, second)["series"][-1]["runs"][0]["times"], {})
+        self.assertEqual(peers_data.ranking.merged(first, second)["series"][-1]["runs"][0]["times"], {})
 
 
 class Recorded(unittest.TestCase):

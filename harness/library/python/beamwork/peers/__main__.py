@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import Error, Refused
 from ..program import run
-from . import _features, chosen, load, names, solve, solve_all, table
+from . import _features, _ratios, chosen, load, names, solve, solve_all, table
 from ._ours import text_of
 from ._record import formulations_of, make, read, written
 from ._rounds import Series
@@ -39,6 +39,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--recorded", metavar="FILE.json", help="print the ranking of a recorded comparison; nothing is run")
     parser.add_argument("--features", action="store_true", help="try the features of the peers on small scenes with closed forms; "
                         "print the tables, and write them to -o FILE.json; with --recorded: only print those of the file")
+    parser.add_argument("--ratios", metavar="FOLDER", help="print the run times of the programs relative to beamwork, as recorded in the files of "
+                        "a folder such as reference/peers")
     parser.add_argument("-o", "--output", action="append", default=[], metavar="FILE", help="may be repeated; .json: record of the "
                         "comparison (reference/peers); results of the peers as an import file (.csv) or stored (.h5)")
     return parser.parse_args()
@@ -156,6 +158,9 @@ def main() -> int:
     try:
         if given.features:
             return _try_features(given)
+        if given.ratios:
+            print(_ratios.markdown(_ratios.recorded(pathlib.Path(given.ratios))), end="")
+            return 0
         if given.recorded:
             print(WRITERS[given.format](read(pathlib.Path(given.recorded))), end="")
             return 0

@@ -3,7 +3,7 @@ work."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 LEVELS = (1e-2, 1e-3, 1e-4)
@@ -105,3 +105,31 @@ def rankings(record: Mapping[str, Any], levels: Sequence[float] = LEVELS) -> lis
     """Returns [(quantity, error, rank())] for the quantities that have errors."""
     known = [q for q in record["quantities"] if any(meshes(s, q["name"]) for s in record["series"])]
     return [(q, level, rank(record, q, level)) for q in known for level in levels]
+
+
+def program_of(series: Mapping[str, Any]) -> str:
+    """Returns the program of a series or row: "Exudyn" for "Exudyn, exact_2d", "beamwork" for a formulation."""
+    return "beamwork" if series["ours"] else str(series["name"]).partition(", ")[0]
+
+
+def merged(first: Mapping[str, Any], second: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns the first record with the peers of the second that it does not contain. The unit of time of the second record
+    is a run of beamwork; if the first contains this run, times are converted by it, and otherwise the peers have no times."""
+    names = {s["name"] for s in first["series"]}
+    factor = next((run["times"][""] for s in first["series"] if s["name"] == second["unit"]["name"] and s["ours"]
+                   for run in s["runs"] if run["elements"] == second["unit"]["elements"] and run.get("times")), None)
+
+    def converted(run: Mapping[str, Any]) -> dict[str, Any]:
+        times = {a: t * factor for a, t in run["times"].items()} if factor and "times" in run else {}
+        return {**run, "times": times} if "errors" in run else {**run}
+    new = [{**s, "runs": [converted(run) for run in s["runs"]]} for s in second["series"] if not s["ours"] and s["name"] not in names]
+    return {**first, "series": first["series"] + new}
+
+
+def by_case(records: Iterable[Mapping[str, Any]]) -> dict[tuple[str, str], Mapping[str, Any]]:
+    """Returns {(case, parameters): record}, where the records of a case are merged in the given order."""
+    found: dict[tuple[str, str], Mapping[str, Any]] = {}
+    for record in records:
+        key = record["case"], record["parameters"]
+        found[key] = merged(found[key], record) if key in found else record
+    return found
