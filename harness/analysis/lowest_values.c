@@ -137,8 +137,8 @@ static int iterate(lowest_values *l, matrix_factor *K, int count, double lambda[
 {
     const size_t n = (size_t)l->n;
     const double *D = l->work;
-    double *X = l->work + n, *Y = X + VECTORS * n, A[VECTORS * VECTORS], B[VECTORS * VECTORS],
-           C[VECTORS * VECTORS];
+    double *X = l->work + n, *Y = X + VECTORS * n, A[VECTORS * VECTORS] = {0},
+           B[VECTORS * VECTORS] = {0}, C[VECTORS * VECTORS];
     components a[VECTORS] = {{0}}, b[VECTORS] = {{0}}, c[VECTORS] = {{0}};
     for (int v = 0; v < count; v++)
         for (size_t i = 0; i < n; i++)
