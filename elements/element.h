@@ -57,9 +57,9 @@ enum element_limit {
        at r = 256, where the arc rises by l^2 k/8 = 2 radii of gyration. The stiffness is indefinite
        beyond r = 6107. */
     LIMIT_FLAT_ARC = 1 << 4,
-    LIMIT_HALF_TURN = 1 << 5, /* strains represent rotations between the nodes up to pi, because
-                                 frames do not contain the number of full revolutions. Applies to
-                                 all types without LIMIT_QUARTER_TURN */
+    /* strains represent rotations between the nodes up to pi, because frames do not contain the
+     * number of full revolutions. All types without LIMIT_QUARTER_TURN have this limit */
+    LIMIT_HALF_TURN = 1 << 5,
     LIMIT_TENSION = 1 << 6, /* an element that is too long for its axial force loses its transverse
                                stiffness; `tension` returns the ratio of the length to the limit */
     LIMIT_NOT_OBJECTIVE = 1 << 8,  /* rigid rotations of a deformed element change its strains */

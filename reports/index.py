@@ -108,7 +108,7 @@ def tolerance_of(cases):
     return known.most_common(1)[0][0] if known else math.nan
 
 
-AS_MANY = 0.01  # largest difference from the largest share of solved problems
+AS_MANY = 0.01  # shares of solved problems that differ from the largest share by at most this count as equal to it
 
 
 def default_choice(rows, sizes):

@@ -48,7 +48,7 @@ static status build(const double value[], scene *s, fault *f)
     TRY(hexapod_add(value, s, angle, platform, &profile, legs, f));
 
     const int lifting = scene_add_static(s, steps, station + 1, 1);
-    /* the prescribed height is released: the cranks keep their angles */
+    /* the prescribed height is released, and the cranks keep their angles */
     const int compliance = scene_add_compliance(
         s, lifting, (scene_compliance){.node = platform, .released = 1u << SCENE_UZ});
     add_stiffnesses(s, compliance, station + 1, steps);

@@ -158,7 +158,8 @@ typedef struct identity_texts {
  * every file that affects results. FAULT: a file cannot be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
 void identity_add_sweep(digest *plan, const sweep *s);
-/* Sets the identity of a work. */
+/* Sets the members build, request, plan and origin of the work to these texts, which must outlive
+ * it. Writes the digest of the plan to texts->plan. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 

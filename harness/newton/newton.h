@@ -554,7 +554,7 @@ typedef struct solve_options {
     newton_form newton;
     double criterion;   /* limit of the relative corrections; 0: default */
     int max_iterations; /* maximum per step; 0: default */
-    /* number of load steps between stations; 0: number in the scene */
+    /* number of load steps between stations; 0: the number that the scene gives */
     int steps_between;
     int condition; /* 1: estimate the condition of the tangents (on a static path only at its
                       stations) */
@@ -843,9 +843,10 @@ typedef struct element_part {
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
-/* Returns the loading of an analysis. In a motion, the path parameter is the time, loads and
- * drivers are functions of time, and a load without such a function acts in full. The rotation of
- * the axes is that of the analysis or of its base analysis. */
+/* Returns the loading of an analysis. In a motion, the path parameter is the time, and loads and
+ * drivers are functions of time. Those without such a function have their values at the path
+ * parameter held_path, which is 1 here (see context_of). The rotation of the axes is that of the
+ * analysis or of its base analysis. */
 loading loading_of(const model *, int analysis);
 /* Returns the value [m or rad] of a driver whose motion is given. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
@@ -1015,7 +1016,7 @@ identity identity_begin(void);
 void identity_add(identity *, const void *bytes, size_t size);
 /* Adds the functions of a model's elements, their data and the eliminated coordinates. If two
  * models of one scene have the same identity, their results are bit-for-bit equal. Returns 0 if the
- * identity is unknown, because a formulation in another process may fail. */
+ * type has `trouble`: its process may fail, so the identity is unknown. */
 int identity_add_model(identity *, const model *);
 
 /* Stress resultants on the sections of a member. At the ends of an element, they are the nodal

@@ -73,8 +73,9 @@ factor_counts condensation_count(const condensation *);
 /* Creates a factor that uses the condensation for solutions. The factor owns the condensation. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
-/* Condenses members if one has many elements (solve_options.condensed). *out is NULL as for
- * condensation_alloc, or if the condition of the tangent of all coordinates was requested. */
+/* Condenses members if at least one member has many elements (solve_options.condensed). *out is
+ * NULL as for condensation_alloc, or if the condition of the tangent of all coordinates was
+ * requested. */
 status context_condensation(const analysis_context *, int count, const int released[],
                             condensation **out, fault *);
 /* Like context_factor, for a tangent with condensed members. */

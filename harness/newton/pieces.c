@@ -159,7 +159,8 @@ static double front_at(const filling *w, int i, int j, int lane)
     return w->front[(ptrdiff_t)WIDTH * (i > j ? i * width + j : j * width + i) + lane];
 }
 
-/* Makes a link of a piece from its front: first block its last node, last block the start. */
+/* Makes a link of a piece from its front. The first block of the front belongs to the last node of
+ * the piece, and the last block to the start. */
 static status link_of_piece(const filling *w, const piece_group *g, int lane, int negative,
                             chain_link *out, fault *f)
 {

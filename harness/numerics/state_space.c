@@ -418,8 +418,8 @@ static void fill_positions(const split *s, double out[])
         out[(n + i) * width + first + i] = 1;
 }
 
-/* Returns 1 if an input acts instantaneously on c x + d u, compared with its effect through the
- * modes. */
+/* Returns 1 if the instantaneous effect of an input on c x + d u is not negligible compared with
+ * its effect through the modes. */
 static int passes_through(const split *s, const double rows[], const double c[], int states)
 {
     const size_t p = (size_t)s->masses, rates = p + (size_t)s->slow + (size_t)s->of->motions,

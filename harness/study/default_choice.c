@@ -255,8 +255,9 @@ static int exhausted(const scene *s, const candidate_run *r)
            (!may_converge || r->next > DEFAULT_CHOICE_COST || r->elements >= DEFAULT_CHOICE_FINEST);
 }
 
-/* Estimates the remaining change if the order is below one, where it exceeds the last change c. The
- * estimate is c (q + q^2 + ...), where q is the ratio of the last change to the previous one. */
+/* Estimates the remaining change if the order is below one, because it then exceeds the last change
+ * c. The estimate is c (q + q^2 + ...), where q is the ratio of the last change to the previous
+ * one. */
 static void expect_more(const scene *s, candidate_run *r)
 {
     /* smallest relative change that gives an order, and largest multiple of the last change */

@@ -379,10 +379,11 @@ typedef struct verdict {
     verdict_kind kind, expected;
     /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
-    /* for information if `truth` is NULL: a reference value of another model, or a
-     * cross-formulation agreement; NULL: none */
+    /* reference value of another model, or cross-formulation agreement, given for information if
+     * `truth` is NULL; NULL: none */
     const truth *model_truth;
-    /* for information if `truth` is NULL: a reference value of another shear theory; NULL: none */
+    /* reference value of another shear theory, given for information if `truth` is NULL; NULL:
+     * none */
     const truth *theory_truth;
     const truth *predicted; /* limit derived for the formulation; NULL: none */
     /* published value that differs from the limit by more than the sum of both uncertainties; NULL:

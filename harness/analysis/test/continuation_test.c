@@ -1,6 +1,6 @@
 /* Limit points, bifurcations and branch switching of continuations must agree with closed forms and
- * with each other. Also: steps of Newton's method near critical points, the number of critical
- * loads below a load, and results that do not depend on the number of threads. */
+ * with each other. Also tests steps of Newton's method near critical points, and the number of
+ * critical loads below a load. Results must not depend on the number of threads. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* Curves must have the requested abscissas, and limit points must be found at the extremes of the
- * load. Also: convergence of Newton's method, and round-off in slender bars and fine meshes. */
+ * load. Also tests convergence of Newton's method, and round-off in slender bars and fine
+ * meshes. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Structures in steady rotation: results must be independent of the frame, the option values of the
- * formulation and the reference point of a body. Also: frequencies of a free beam, and solutions on
- * fine meshes. */
+ * formulation and the reference point of a body. Also tests frequencies of a free beam, and
+ * solutions on fine meshes. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Initial strains due to temperature or misfit, compared with closed forms in analyses about the
- * undeformed state. Also: bars whose free rotation has no effect, and critical loads in the
+ * undeformed state. Also tests bars whose free rotation has no effect, and critical loads in the
  * presence of constant loads. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>

@@ -1,5 +1,5 @@
-"""Initial shapes of members compared with closed forms: magnified moments, the frequency of a shallow arch, and
-absence of stress. Also: shapes of modes and measured shifts of nodes."""
+"""Initial shapes of members compared with closed forms: magnified moments, the frequency of a shallow arch, and absence of stress.
+Also tests shapes of modes and measured shifts of nodes."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values

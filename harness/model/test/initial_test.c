@@ -1,6 +1,6 @@
 /* Members with initial elongation and shear strains g (N Eq. 52) must have the displacements and
- * reactions of closed forms. Also: points and triads of centre lines, the division of members into
- * elements, and rigid motions of supports. */
+ * reactions of closed forms. Also tests points and triads of centre lines, the division of members
+ * into elements, and rigid motions of supports. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

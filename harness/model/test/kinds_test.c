@@ -1,5 +1,5 @@
 /* Elements must share the data of one kind if, and only if, all properties that affect these data
- * are equal. Also: weights and distances of the metric, members with a varying section, and
+ * are equal. Also tests weights and distances of the metric, members with a varying section, and
  * sections given in rotated axes. */
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* The spaces of possible motions must have the dimensions that exact axes give, despite round-off
- * in the axes and for any unit of length. Also: masses at nodes, and strains of springs with their
- * derivatives. */
+ * in the axes and for any unit of length. Also tests masses at nodes, and strains of springs with
+ * their derivatives. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

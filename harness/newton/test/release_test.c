@@ -1,5 +1,5 @@
 /* Released ends in a rotated state: the tangent must be the derivative of the forces within 1e-8,
- * for any release, node position and load on the member. Also: sizes of corrections, condensed
+ * for any release, node position and load on the member. Also tests sizes of corrections, condensed
  * members, and access to the outcomes of analyses. */
 #include <gsl/gsl_test.h>
 #include <math.h>

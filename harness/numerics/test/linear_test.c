@@ -1,5 +1,5 @@
 /* Sparse factors of random matrices compared with LAPACK: solutions, inertia, sign of the
- * determinant and condition number. Also: rejection of singular matrices, parallel loops, and
+ * determinant and condition number. Also tests rejection of singular matrices, parallel loops, and
  * factors whose rows are computed in groups. */
 #include <float.h>
 #include <gsl/gsl_test.h>

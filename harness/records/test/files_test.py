@@ -26,7 +26,8 @@ QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight
 
 
 def small_files():
-    """In the child process, limits files to 2000 bytes, which acts like a full disk."""
+    """In the child process, limits files to 2000 bytes, so that writing fails as on a full
+    disk."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 

@@ -280,8 +280,8 @@ static void start_from(const char *then, double least, double most)
     motion_added(&s, SCENE_RADAU, 0.0005, 0.1);
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
-    for (int i = 0; i < steps;
-         i++) /* ends exactly at the jump; beyond it, the load after the jump would act */
+    for (int i = 0; i < steps; i++) /* the last step ends exactly at the jump; beyond it, the load
+                                       after the jump would act */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
