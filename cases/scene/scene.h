@@ -258,7 +258,8 @@ typedef struct formula formula;
 
 /* Parses a function. Returns REFUSED if the text is invalid, or FAULT if out of memory. */
 status formula_parse(const char *text, formula **out, expression_mistake *);
-/* Like formula_parse, but writes the error to f, with the text and the position (from 1). */
+/* Like formula_parse, but writes the error to f, with the text and the position, which starts at
+ * 1. */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
 /* Computes the value and the first two derivatives with respect to t. Undefined values are not
@@ -1153,7 +1154,7 @@ void scene_meshes(scene *s, int count, const int mesh[]);
 void scene_meshes_doubled(scene *s, int first, int last);
 
 /* Computes the constants of section i. They are stored until the description of the section
- * changes. Not thread-safe. */
+ * changes. REFUSED: section_compute rejects the section. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
 void scene_join_instants(scene *s);

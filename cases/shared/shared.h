@@ -31,7 +31,7 @@ extern const parameter_type joint_parameters[];
 #define JOINT_DEGREE 0.017453292519943295
 
 /* Sets the section and the omitted physics, for all joints of a scene. Sets *profile to the index
- * of the section. Rejects sheets that would extend through the centre. */
+ * of the section. REFUSED: the sheets would extend through the centre. */
 status joint_prepare(const double value[], scene *s, int *profile, fault *f);
 
 /* Adds one joint between two bodies (nodes of the scene). `centre` is in [m]. The columns of
@@ -67,7 +67,7 @@ typedef struct hexapod_leg {
 /* Adds the node of the platform at the centre of its joints. The node remains free. */
 int hexapod_platform(const double value[], scene *s);
 /* Adds all legs. The driver `angle` [rad] rotates the cranks about horizontal tangents of the base
- * circle, positive upwards. Rejects cranks that extend beyond the centre. */
+ * circle, positive upwards. REFUSED: the cranks extend beyond the centre. */
 status hexapod_add(const double value[], scene *s, int angle, int platform, int *profile,
                    hexapod_leg legs[HEXAPOD_LEGS], fault *f);
 
@@ -102,7 +102,7 @@ void sheet_section(double width, double thickness, double young, double poisson,
                    double shear_factor, section_spec *out);
 
 /* Adds the section, the nodes, a member with a clamped root, the physics and the meshes. The tip
- * remains free. Sets *root and *tip. Rejects a tip deflection that is too large for the length. */
+ * remains free. Sets *root and *tip. REFUSED: the tip deflection is too large for the length. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
 /* Adds quantities C_<response>_<load> of a compliance analysis: the entries whose rows and columns

@@ -189,7 +189,8 @@ typedef enum beamw_prepare_modes {
 } beamw_prepare_modes;
 
 /* Prepares a variant. If the request does not include FEATURE_SHEAR, the stiffness is rigid in
- * shear for any value of `shear`. */
+ * shear for any value of `shear`. REFUSED: the length is not positive, or the stiffness
+ * overflows. */
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 

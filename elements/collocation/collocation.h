@@ -84,10 +84,12 @@ void exact_along_frame_of(const exact_stages *, const exact_along *, const node_
  * of the energy with respect to xi. */
 void exact_along_finish(const exact_stages *, const exact_along *, const exact_along_frame *,
                         double moved[][3], along_output *);
-/* Computes the output for the undeformed element, which is linear in the force. */
+/* Computes the output for the undeformed element, which is linear in the force. SINGULAR: the
+ * equations of the stages are singular. */
 status exact_along_linear(const exact_stages *, const exact_along *, const node_state x[],
                           along_output *);
-/* Computes derivatives with respect to the size of along_output.rate. */
+/* Computes derivatives with respect to the size of along_output.rate. SINGULAR: the equations of
+ * the stages are singular. */
 status exact_along_rate(const exact_stages *, const exact_along *, const node_state x[],
                         along_output *);
 

@@ -29,7 +29,7 @@ typedef struct sheet_potential {
 } sheet_potential;
 
 /* Computes the terms of A, b and P0. If `printed` is 1, u_y in M_x has the sign of N Eq. 49 as
- * printed. Rejects a section without torsional stiffness. */
+ * printed. REFUSED: the section has no torsional stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 
@@ -38,7 +38,8 @@ status sheet_coefficients_prepare(const element_request *request, int printed, s
 status sheet_potential_evaluate(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                                 double *P, double *gradient, double *hessian);
 
-/* Computes T[8 x 8], the derivative of the Hessian at x in the direction dx. */
+/* Computes T[8 x 8], the derivative of the Hessian at x in the direction dx. Returns SINGULAR if A
+ * is not positive definite at x. */
 status sheet_potential_third(const sheet_potential *p, const double x[SHEET_LOCAL_COORDINATES],
                              const double dx[SHEET_LOCAL_COORDINATES],
                              double T[SHEET_LOCAL_COORDINATES * SHEET_LOCAL_COORDINATES]);

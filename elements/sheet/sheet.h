@@ -127,7 +127,7 @@ typedef struct sheet_strains_table {
 /* Prepares the strains. Phi_y and Phi_z are shear parameters of the displacement fields (N Eq. 18).
  * If both are 0, the strains are those of N Eq. 37, without shear deformation. If they are the
  * values of the section, the strains are consistent with shear (derived here). Of the features of
- * the request, warping and trapeze are used. */
+ * the request, warping and trapeze are used. REFUSED: the length is not positive. */
 status sheet_strains_prepare(const element_request *request, double Phi_y, double Phi_z,
                              sheet_strains_table *out, fault *f);
 
@@ -300,9 +300,12 @@ void sheet_second_equations_many(int count, const element_data *const data[], co
  * length. */
 
 size_t sheet_third_data_size(const element_request *request);
-/* Prepares an element. If `printed` is 1, u_y has the sign of N Eq. 49 as printed. */
+/* Prepares an element. If `printed` is 1, u_y has the sign of N Eq. 49 as printed. REFUSED:
+ * sheet_base_prepare or sheet_coefficients_prepare rejects the request, there is an initial shear
+ * strain along the thickness, or the initial curvature is too large for the length. */
 status sheet_third_prepare(const element_request *request, int printed, element_data *out,
                            fault *f);
+/* Returns SINGULAR if A is not positive definite for the strains e. */
 status sheet_third_stress(const element_data *d, const double e[], const double inner[],
                           stress_output *out);
 void sheet_third_stress_many(int count, const element_data *const data[], const double *const e[],

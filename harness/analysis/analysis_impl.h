@@ -308,8 +308,8 @@ void continuation_step_free(continuation *);
 
 /* Returns the scalar product in the metric. */
 double continuation_step_dot(const continuation *, const double a[], const double b[]);
-/* Applies Newton's method from n.backup, which is the state of `here`, until the goal is
- * reached. */
+/* Applies Newton's method from n.backup, which is the state of `here`, until the goal is reached.
+ * Returns the failures of newton_iterate. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
 /* Like continuation_step_correct, but starts from the current state, the result of the previous
  * iteration. */
@@ -321,7 +321,8 @@ status continuation_step_check(const path_point *, fault *f);
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
                               fault *);
 /* Fills the point after a converged correction. Uses the last factors, which belong to the state
- * before this correction, and makes no further correction. */
+ * before this correction, and makes no further correction. SINGULAR: the loads cause no
+ * displacement, or K is singular to working precision. */
 status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
 /* Restores the state of `here`. */
 void continuation_step_go_back(continuation *);
@@ -458,11 +459,15 @@ void loops_release(sparse closed[]);
 
 /* Returns entry k of the dynamic stiffness D at the circular frequency w. */
 double complex harmonic_dynamic(const vibration *, double w, int k);
-/* Computes K, M, C and B; if `whole` is 1, including the prescribed coordinates. */
+/* Computes K, M, C and B; if `whole` is 1, including the prescribed coordinates. REFUSED: the
+ * analysis is about the undeformed structure but members have initial strains, or about a state
+ * that was not reached or is unstable. If the base analysis failed, its status is returned
+ * instead. */
 status harmonic_matrices(vibration *, int whole, fault *);
 status harmonic_pattern(vibration *, fault *);
 status harmonic_matrix(vibration *, fault *);
-/* Factors the matrix of a direct solution at the circular frequency w. */
+/* Factors the matrix of a direct solution at the circular frequency w. Returns the failures of
+ * factor_numeric. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
  * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f. */
@@ -473,7 +478,8 @@ int harmonic_border(const vibration *);
 enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
 
 /* Sets the right-hand side x[all + loops] for an input. The coordinate of a prescribed motion
- * becomes 1. */
+ * becomes 1. REFUSED: the force has no effect because its component is fixed or prescribed, or the
+ * motion is a component of a rotation vector. */
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
 /* Sets y[border] of the direct solution to U^T r of the driven coordinate of the input. Returns 0
@@ -538,6 +544,8 @@ struct harmonic_modes {
 status harmonic_modes_blocks(vibration *, harmonic_modes *, fault *);
 /* Computes the first `wanted` modes, or all modes if `wanted` is 0. */
 status harmonic_modes_lowest(vibration *, harmonic_modes *, int wanted, fault *);
+/* Computes the modes of the analysis. REFUSED: a solution by modes is requested, but the damping of
+ * a spring is unsymmetric. Also returns the failures of harmonic_modes_lowest. */
 status harmonic_modes_find(vibration *, fault *);
 void harmonic_modes_free(harmonic_modes *);
 /* Computes the natural frequencies [Hz] in ascending order, at least those below the given
@@ -614,7 +622,9 @@ status harmonic_reacting(const vibration *, const scene_response *, int *out, fa
 
 status second_order_list(const scene *, system_matrices *, fault *);
 /* Stores the matrices. v contains the matrices of all coordinates, the state, and the modes with
- * damping ratios. G: gyroscopic matrix, or NULL. */
+ * damping ratios. G: gyroscopic matrix, or NULL. REFUSED: there are too many coordinates, a
+ * prescribed motion is a component of a rotation vector, or the state space or its reduction is
+ * rejected. */
 status second_order_keep(const vibration *v, const sparse *G, const system_matrices *,
                          state_matrices *, fault *);
 /* Stores the reduced model and its errors (second_order_reduced.c). */

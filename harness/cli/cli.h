@@ -149,7 +149,7 @@ typedef struct text_list {
 status option_take(const verb_option *, void *member, const char *value, fault *f);
 option_reader option_error; /* type double: one relative error, "1%" or "0.01" */
 /* Reads relative errors between 0 and 1, such as "1%,0.1%" or "0.01", into level[most]. *count:
- * their number. */
+ * their number. REFUSED: a value is invalid, or there are more than `most`. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
 extern const option_group options_output;  /* member const char *: -o FILE, text */

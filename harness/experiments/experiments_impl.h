@@ -208,7 +208,8 @@ extern const char integrators_method_all[];
 /* Reads one of INTEGRATORS_METHODS, with a parameter R in [0, 1] or A in [0, 1/3]. REFUSED: the
  * message names the invalid part. */
 status integrators_method_read(const char *text, int length, integrators_method *out, fault *f);
-/* Appends the methods of a list "NAME,NAME,..." to list[most]. No method may occur twice. */
+/* Appends the methods of a list "NAME,NAME,..." to list[most]. REFUSED: integrators_method_read
+ * rejects a name, a method occurs twice, or there are more than `most`. */
 status integrators_method_read_list(const char *text, int most, integrators_method list[],
                                     int *count, fault *f);
 
@@ -527,7 +528,8 @@ shard_work ranges_work_of(ranges_work *);
 
 /* File of a sweep. */
 
-/* Opens the file; the path must outlive it. plan: digits that identify the sweep. */
+/* Opens the file; the path must outlive it. plan: digits that identify the sweep. Returns the
+ * failures of record_open_beside, and FAULT after a write error. */
 status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
                         ranges_file *out, fault *f);
 /* Finishes the file: writes the worst points with the names of their scenes, and `content`, the
@@ -536,7 +538,8 @@ status ranges_file_open(const char *path, const parameter_ranges *r, const char 
 status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
                          fault *f);
 /* Writes the scenes of the worst points to a new folder as "point_12.yaml", each point once, and
- * stores their names in the tally. FAULT: a disk error, or out of memory; no file remains. */
+ * stores their names in the tally. REFUSED: the path exists and is not an empty folder. FAULT: a
+ * disk error, or out of memory; no file remains. */
 status worst_write(const char *folder, tally *t, fault *f);
 /* Writes the table within PARAGRAPH_WIDTH. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);

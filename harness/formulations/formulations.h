@@ -131,6 +131,8 @@ assignment_list formulation_options(const element_type *);
 /* Returns the form of Newton's method. Instead of the mixed form, types that compute forces with a
  * history use the form with displacements, because they have no strains that could be unknowns. */
 newton_form formulation_newton(const formulation *);
+/* Reads a formulation in the form "NAME" or "NAME:OPTION=VALUE,...". REFUSED: the text is too long,
+ * or the name or an option is unknown or invalid. */
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* Finds the type for "name" or "name:key=value,..."; NULL: none. */
 const element_type *formulation_find(const char *key);
@@ -191,7 +193,8 @@ assignment_list parameters_list(const case_type *c);
 void parameters_shown(const case_type *c, char out[ASSIGNMENT_SHOWN]);
 int parameters_count(const case_type *c);
 void parameters_default(const case_type *c, double value[]);
-/* Sets a parameter. assignment: "NAME=VALUE". */
+/* Sets a parameter. assignment: "NAME=VALUE". REFUSED: the assignment is malformed, or the name or
+ * the value is invalid. */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* Sets the parameters in "NAME=VALUE;NAME=VALUE", and all other parameters to their defaults. A
  * value "*" means the default and is marked in any[]; "*" alone marks all parameters of the

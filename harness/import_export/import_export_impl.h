@@ -86,7 +86,7 @@ int export_is_static(const scene *s);
 /* Checks the scene. REFUSED: the message names the part of the structure or of its analyses that a
  * deck cannot express, and the remedy. */
 status export_support_check(const scene *s, fault *f);
-/* Like export_support_check, for the quantities. */
+/* Like export_support_check, for the quantities, with the same statuses. */
 status export_support_requests(const scene *s, fault *f);
 
 /* Conversion of units of other programs. Values are converted only by these functions. A unit is a

@@ -478,7 +478,8 @@ status output_flush(fault *f);
 /* Like output_flush, but also returns FAULT if an earlier write to standard output failed. */
 status output_all_written(fault *f);
 /* Checks an output before any computation. *where: location of the output, for comparison with
- * other outputs. */
+ * other outputs. REFUSED: the path is empty, or names a file that does not suit the form. FAULT:
+ * the file cannot be written. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
 /* Deletes incomplete temporary files and folders of this process. A signal handler may call this
  * function. */
@@ -629,8 +630,9 @@ void store_environment(record_file *r, hid_t at, const environment *e);
  * dofs.csv: meaning of each row; loads.csv: meaning of each column of B; states.csv: meaning of
  * each folder. */
 
-/* Writes the folder, which appears complete or not at all. title: description of the solution in
- * one line, for the comments of the matrices. */
+/* Writes the folder, which appears complete or not at all. REFUSED: the path exists and is not an
+ * empty folder. FAULT: a write error, or out of memory. title: description of the solution in one
+ * line, for the comments of the matrices. */
 status system_folder_write(const char *path, const char *title, const scene *,
                            const system_matrices *, fault *);
 

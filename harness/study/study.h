@@ -102,8 +102,9 @@ typedef struct cell_result {
 } cell_result;
 
 void cell_formulation(cell_request *, const formulation *chosen);
-/* Builds the valid scene of a case for given parameters, changed by the edit (NULL: unchanged). The
- * caller frees the scene, even after a failure. */
+/* Builds the valid scene of a case for given parameters, changed by the edit (NULL: unchanged).
+ * REFUSED: case_build, scene_edit_apply or scene_validate rejects the case. The caller frees the
+ * scene, even after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);

@@ -275,7 +275,7 @@ typedef struct follow_shapes {
 } follow_shapes;
 
 /* Matches the modes of `before` with the modes of a state. *least: worst match; 0 if two modes
- * match the same mode. */
+ * match the same mode. REFUSED: the numbers of coordinates differ. */
 status follow_match_next(const follow_shapes *before, const state_matrices *, follow_shapes *out,
                          double *least, fault *);
 void follow_match_free(follow_shapes *);

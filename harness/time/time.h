@@ -176,8 +176,12 @@ void feedback_signals(const equations *, const model_state *, int load, double p
 
 /* Checks before any analysis runs that the integrator supports the formulation, the form of
  * Newton's method, the damping and the kind of mass, that the coordinates of the nodes determine
- * their orientations, and that the values of all drivers are known. */
+ * their orientations, and that the values of all drivers are known. Returns REFUSED if one of these
+ * conditions is not satisfied. */
 status motion_check(const analysis_context *, int analysis, fault *);
+/* Runs a motion. NOT_CONVERGED: a step failed, or the size of the displacements, on which the steps
+ * depend, is still unknown after several integrations. REFUSED: the integrator does not support the
+ * model, or the motion cannot start from the requested state. */
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Returns the end of another run that the motion continues; NULL: none. */
 const outcome_end *resume_given(const analysis_context *, int analysis);

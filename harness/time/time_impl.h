@@ -1126,6 +1126,8 @@ status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
 /* Computes the states at the times inside a step, without its end. */
 status abouts_inside(abouts *, const motion_state *from, const motion_state *to, fault *);
+/* Stores `now` as the state at each requested time that it reaches. REFUSED: such a time is before
+ * the start of this run, which continues another motion. */
 status abouts_here(abouts *, const motion_state *now, fault *);
 
 /* Output of a motion at the requested times, which are independent of the ends of steps. If forces
