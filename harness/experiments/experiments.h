@@ -950,8 +950,8 @@ void solution_choice_free(solution_choice *);
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
 /* Plans one point, series and mesh with the selected quantities, without solving anything. REFUSED:
- * the parameters are rejected, the selection is malformed, contains an unknown name or selects no
- * quantity. Call sweep_free after a failure as well. */
+ * the parameters are rejected, or the selection is malformed, contains an unknown name, or selects
+ * no quantity. Call sweep_free after a failure as well. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the cell in this process. REFUSED and FAULT are returned; any other cell without a
  * solution counts as a result. NOT_CONVERGED: the chosen mesh does not reach the requested

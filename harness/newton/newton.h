@@ -1078,7 +1078,8 @@ status internal_moved(const equations *, const internal_state *, int member, dou
 /* Function whose largest value over a member is sought. The function uses the resultants
  * [SPAN_VALUES] of the section at x in [0, 1] of an element. */
 typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);
-/* REFUSED: the axes of the sections rotate along the member. */
+/* Computes the largest value of a function over a member. REFUSED: the axes of the sections rotate
+ * along the member. */
 status internal_largest(const equations *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);
 

@@ -149,7 +149,7 @@ static const char *read_columns(sweep_file *s)
         const char *name;
         hid_t type;
         int ranks;
-        hsize_t size[RANKS]; /* dimensions after the points */
+        hsize_t size[RANKS]; /* extents; the first, which is the number of points, is set below */
     } column[COLUMNS] = {{"points", H5T_NATIVE_DOUBLE, 2, {0, a}},
                          {"reference", H5T_NATIVE_DOUBLE, 2, {0, q}},
                          {"value", H5T_NATIVE_DOUBLE, 4, {0, f, m, q}},

@@ -200,8 +200,9 @@ static void write_why(FILE *to, int at, const sweep *s, const truths *t, int qua
     paragraph_end(&words, at, 4);
 }
 
-/* Writes the name, the unit, and the reference values of the formulations without repetition.
- * Returns 0 if there is no reference value. */
+/* Writes the name, the unit, the reference values of the formulations without repetition (or the
+ * reason why there are none), and the analytic estimate. Returns 0 if there is no reference
+ * value. */
 static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
     const sweep_point *p = &s->point[0];

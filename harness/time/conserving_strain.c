@@ -389,7 +389,7 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
 
 /* For a node that rotates freely, computes dr = h/2 (v + cay(c) v): the velocity rotates with the
  * node. cay(c) v - v = (c x v + c x (c x v)/2)/(1 + c.c/4). Increments of other free coordinates
- * are h v. */
+ * are h v, for three released rotations along fixed axes. */
 void conserving_predict(conserving *s, const motion_state *from, double h)
 {
     const model *m = s->of.c->model;

@@ -67,7 +67,7 @@ double dashpots_subtract(const model *, const model_state *, const double v[], d
  * space. */
 double springs_circulating_power(const model *, const model_state *, const double v[],
                                  double room[]);
-/* Adds the force of dashpots to F[6] on the frame of a node. */
+/* Adds the force and the moment of dashpots on the frame of a node to F[6]. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
 /* Computes the strain rates of a motion_state from the rates of its coordinates. Changes nothing

@@ -251,8 +251,8 @@ quantities:
             A[n:2*n, n:2*n] = -(c*np.eye(n) + kd*S.T @ S)/m
             A[n:2*n, 2*n:] = S.T*gains/m
             A[2*n:, :n] = -S
-            # slow poles: 2 x 2 eigenvalue problem with the static stiffness at the carts; gains are far below this
-            # stiffness
+            # the slow poles follow from a 2 x 2 eigenvalue problem with the static stiffness at the carts, because the gains are
+            # far below this stiffness
             C = S @ np.linalg.solve(K + kp*S.T @ S, S.T)
             static = sorted(np.linalg.eigvals(C*gains).real)[:slow]
             expected = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0), key=abs)[slow:5]
