@@ -28,7 +28,7 @@ enum element_feature {
 /* Name and summary of a feature bit. */
 typedef struct feature_row {
     unsigned bit;        /* element_feature */
-    const char *name;    /* without a comma */
+    const char *name;    /* name without a comma */
     const char *summary; /* one line */
 } feature_row;
 

@@ -15,7 +15,7 @@ typedef struct extreme_setting {
 
 typedef struct extreme_quantity {
     const char *name; /* NULL ends the list */
-    double power;     /* for EXTREME_SAME: value/x^power is equal for all x */
+    double power;     /* for EXTREME_SAME: exponent for which value/x^power is equal for all x */
 } extreme_quantity;
 
 typedef enum extreme_knob {
@@ -47,7 +47,7 @@ typedef struct extreme {
     double value[EXTREME_MAX_VALUES];
     extreme_criterion criterion;
     double same_as;   /* value of x with which the results for other values are compared */
-    double tolerance; /* relative; a value within this tolerance is accurate */
+    double tolerance; /* relative tolerance; a value within it is accurate */
 } extreme;
 
 extern const extreme extremes[];

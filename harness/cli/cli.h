@@ -92,8 +92,10 @@ typedef struct verb_group {
 
 struct verb {
     const char *name;
-    const char *arguments; /* for example "OLD [NEW]" (at most two) or "CASE..." (any number) */
-    const char *summary;   /* one line */
+    /* arguments in the usage line, for example "OLD [NEW]" (at most two) or "CASE..." (any
+     * number) */
+    const char *arguments;
+    const char *summary; /* one line */
     const char *about, *examples;
     const verb_group *shared; /* ends with group NULL */
     const verb_option *own;   /* options, which end with name NULL; NULL: none */
@@ -185,7 +187,7 @@ typedef struct truths_options {
     text_list own;      /* --truths FILE.csv */
 } truths_options;
 extern const option_group options_truths;      /* --truths FILE */
-extern const option_group options_user_truths; /* also accepts FILE.csv */
+extern const option_group options_user_truths; /* like options_truths, but also accepts FILE.csv */
 
 /* Returns the path of the packed reference values: that of --truths, or the default
  * (harness/study/study.h). */

@@ -487,9 +487,10 @@ typedef struct integrators_method {
 
 /* Classification of a motion. */
 typedef enum integrators_class {
-    INTEGRATORS_UNCLASSIFIED, /* not classified, because loads or supports act until the end */
-    INTEGRATORS_GROWS,        /* the energy grows by more than integrators_growth */
-    INTEGRATORS_STOPS,        /* the equations of a step of this size have no solution */
+    /* the motion is not classified, because loads or supports act until the end */
+    INTEGRATORS_UNCLASSIFIED,
+    INTEGRATORS_GROWS, /* the energy grows by more than integrators_growth */
+    INTEGRATORS_STOPS, /* the equations of a step of this size have no solution */
     INTEGRATORS_BOUNDED,
     INTEGRATORS_EXACT, /* energy and momenta are conserved within integrators_energy and
                           integrators_momentum */
@@ -610,8 +611,9 @@ typedef enum rows_reference {
     ROWS_STORED,  /* a reference value stored for exactly this point */
     ROWS_DERIVED, /* a reference value computed for the point by a program of reference/derive */
     ROWS_LIMIT,   /* the limit of the meshes of a formulation with the same physics */
-    ROWS_NONE,    /* no limit is known accurately enough */
-    /* none, because the limits of formulations differ by more than their uncertainties */
+    ROWS_NONE,    /* there is no reference, because no limit is known accurately enough */
+    /* there is no reference, because the limits of formulations differ by more than their
+     * uncertainties */
     ROWS_DISPUTED,
     ROWS_REFERENCES
 } rows_reference;
@@ -928,7 +930,7 @@ typedef struct solution_request {
     int keep_ends;       /* 1: the final states of motions are stored */
     int restarts;
     const outcome_end *restart; /* [restarts] states from which motions continue; NULL: none */
-    int systems;                /* as in solve_options */
+    int systems;                /* meaning: see solve_options */
     const char *reduce;
     /* largest relative change of a value between two meshes that counts as converged; 0: default */
     double error;

@@ -116,7 +116,8 @@ status results_sweep_read(const char *path, hid_t at, stored_results *out, fault
 /* Header line with the names of the columns. harness/README.md explains the columns. */
 extern const char results_table_head[];
 
-/* Number of digits that are written. */
+/* Numbers of digits with which sizes of errors and limits are written, and of decimals of the sum
+ * of logarithms. */
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file

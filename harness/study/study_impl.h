@@ -271,7 +271,7 @@ typedef struct follow_shapes {
     int modes, rows;
     double *frequency; /* [modes] [rad/s] */
     double *match;     /* [modes] match with the previous sample */
-    double *shape;     /* [modes x rows] normalised to unit mass */
+    double *shape;     /* [modes x rows] mode shapes, normalised to unit modal mass */
 } follow_shapes;
 
 /* Matches the modes of `before` with the modes of a state. *least: worst match; 0 if two modes

@@ -71,7 +71,7 @@ typedef struct frame_mass {
 
 typedef struct frame_masses {
     int masses;
-    frame_mass *mass; /* [masses] for each frame with mass */
+    frame_mass *mass; /* [masses] one for each frame that has mass */
     /* [free + driven] masses of warping amplitudes [kg m^4]; 0 for other coordinates */
     double *warping;
     double total; /* [kg] total mass */

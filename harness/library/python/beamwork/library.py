@@ -21,7 +21,7 @@ def places() -> list[pathlib.Path]:
         return [pathlib.Path(asked)]
     here = pathlib.Path(__file__).resolve().parent
     found = [here / "lib" / FILE, here / FILE, here.parent / FILE]
-    for folder in here.parents:  # PREFIX/lib/python3/dist-packages/beamwork: PREFIX/lib
+    for folder in here.parents:  # finds PREFIX/lib for the package PREFIX/lib/python3/dist-packages/beamwork
         found += [folder / FILE, folder / "lib" / FILE, folder / "build" / FILE]
         found += sorted((folder / "lib").glob(f"*/{FILE}"))
     program = shutil.which("beamwork")
