@@ -168,10 +168,11 @@ class Corotational(Model):
             answer = follow(PathOfModel(self, analysis), analysis, self.scene, (self.name, len(self.mesh.elements)))
             self.base = analysis.name
             return answer
-        if self.base or self.linear != (analysis.kind == "linear"):
-            self.build(analysis.kind == "linear")
+        linear = analysis.kind == "linear"
+        if self.base or self.linear != linear:
+            self.build(linear)
         # elements with "force" in their name need an iteration before element loads act fully
-        if analysis.kind == "linear" and not self.name.startswith("force"):
+        if linear and not self.name.startswith("force"):
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
         states, iterations, path = [], 0, 0.0
@@ -181,7 +182,7 @@ class Corotational(Model):
         self.ops.analysis("Static", "-noWarnings")
         for station in stations:
             while path < station * (1 - 1e-12):
-                step = station - path if analysis.kind == "linear" else steps.next(station - path)
+                step = station - path if linear else steps.next(station - path)
                 self.ops.integrator("LoadControl", step)
                 if self.ops.analyze(1) != 0:
                     iterations += self.most_iterations
@@ -190,10 +191,11 @@ class Corotational(Model):
                     continue
                 path += step
                 iterations += max(self.ops.testIter(), 1)
-                after = self._turns()
-                steps.done(step, max(math.dist(a, b) for a, b in zip(before, after)))
-                before = after
-            states.append(self.state(analysis.kind == "linear"))
+                if not linear:  # large rotations of a linear analysis are no jump
+                    after = self._turns()
+                    steps.done(step, max(math.dist(a, b) for a, b in zip(before, after)))
+                    before = after
+            states.append(self.state(linear))
         self.base = analysis.name
         return Answer(states, iterations=iterations)
 
