@@ -195,9 +195,10 @@ typedef struct element_type {
     unsigned leaves; /* derivatives that are not provided (element_left). Default: none */
     unsigned limits; /* restrictions of the type (element_limit); default: none */
     unsigned lacks;  /* features supported in only one direction (element_lack); default: none */
-    const char *lacks_by;    /* equation or assumption that excludes the features in `lacks` */
-    unsigned shear_theories; /* shear_theory; default: none, rigid in shear */
-    const char *own_theory;  /* for SHEAR_OWN: one line that states the theory and its source */
+    const char *lacks_by; /* equation or assumption that excludes the features in `lacks` */
+    /* supported theories (shear_theory); default: none, and the type is rigid in shear */
+    unsigned shear_theories;
+    const char *own_theory; /* for SHEAR_OWN: one line that states the theory and its source */
     element_order (*order)(element_analysis,
                            const double options[]); /* default: lowest 2, highest 4 */
 
@@ -233,11 +234,11 @@ typedef struct element_type {
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
-    /* Optional: evaluate many elements in one call, for types for which this is faster than single
-     * calls (several lanes, or another process). Values must not depend on the order and number of
-     * elements. data[count] has an entry for each element. Elements of one kind share their data
-     * and are often consecutive. The states of the nodes are x[count x nodes]. All entries of
-     * out[count] request the same outputs. */
+    /* Optional: functions that evaluate many elements in one call, for types for which this is
+     * faster than single calls (several lanes, or another process). Values must not depend on the
+     * order and number of elements. data[count] has an entry for each element. Elements of one kind
+     * share their data and are often consecutive. The states of the nodes are x[count x nodes]. All
+     * entries of out[count] request the same outputs. */
     void (*strain_many)(int count, const element_data *const data[], const node_state x[],
                         strain_output out[]);
     /* Computes the stresses of many elements. Array sizes: e[count][strains], inner[count][inner],

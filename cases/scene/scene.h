@@ -695,8 +695,8 @@ const scene_stress *scene_stress_of(const scene_quantity *q);
 int scene_requests(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Returns 1 if the quantity needs reactions, resultants, stresses or deflections. */
 int scene_reads_forces(const scene_quantity *q);
-/* Returns 1 if the analysis is used: by a quantity, an imperfection or another used analysis.
- * Without quantities, all analyses are used. */
+/* Returns 1 if the analysis is used by a quantity, an imperfection or another analysis that is
+ * used. Without quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
 void scene_keep_quantities(scene *s, const scene *of);
 /* Returns the unit of the displacement or rotation per force or moment. Both arguments are SCENE_UX

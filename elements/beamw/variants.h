@@ -40,7 +40,7 @@ struct element_data {
     double l0;                       /* [m] */
     double S[8 * 8];                 /* [N/m] */
     double Q[BEAMW_MODIFIED][8 * 8]; /* [1/m], symmetric */
-    int terms;                       /* number of nonzero terms in Q ... */
+    int terms;                       /* number of nonzero terms in Q, which `term` lists */
     beamw_quadratic_term
         term[BEAMW_QUADRATIC_TERMS]; /* `entry` is a position in [8 x 8] with i <= j */
     int springs;                     /* number of nonzero terms in S */

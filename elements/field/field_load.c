@@ -36,10 +36,10 @@ typedef struct pulled {
     int n;                                              /* coordinates */
     double vector[ELEMENT_MAX_NODES][3][3], mean[3][3]; /* unit vectors, and their means m_k */
     double e[FIELD_MODES], J[FIELD_MODES * MOST];
-    double s[FIELD_MODES];          /* generalised forces conjugate to e */
-    double turn[2][3][FIELD_MODES]; /* derivative of s with respect to rotations of p and q, due to
-                                       forces ... */
-    double moment_turn[2][3][FIELD_MODES]; /* ... and due to moments */
+    double s[FIELD_MODES]; /* generalised forces conjugate to e */
+    /* derivative of s with respect to rotations of p and q, due to forces */
+    double turn[2][3][FIELD_MODES];
+    double moment_turn[2][3][FIELD_MODES]; /* the same derivative due to moments */
     double *forces, *K;
 } pulled;
 

@@ -265,7 +265,7 @@ struct schema_field {
     size_t offset;
     int address;              /* 1: the offset refers to a pointer to the TEXT */
     field_getter *get;        /* computes a derived value, for which the offset is not used */
-    const char *(*word)(int); /* ENUM: its words ... */
+    const char *(*word)(int); /* ENUM: returns the word of a value */
     int words;                /* number of words, for the values 0 to words - 1 */
     int count; /* DOUBLE: length of an array or size of a square matrix; 0: a single number */
     int key;   /* KEY, KEY_AROUND, or 0: a result */

@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Relative to the step size: distance to the end of a step below which a time counts as this
+/* Distance to the end of a step, relative to the step size, below which a time counts as this
  * end. */
 static const double same_instant = 1e-9;
 

@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Relative to the largest mass: eigenvalue of the scaled M below which a motion has no mass. */
+/* Eigenvalue of the scaled M, relative to the largest mass, below which a motion has no mass. */
 static const double massless_nothing = 1e-14;
 
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
@@ -366,7 +366,7 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
     return sqrt(square);
 }
 
-/* Relative to the largest stiffness: stiffness that fixes coordinates with inertia. It multiplies
+/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It multiplies
  * rounding errors by at most this factor. */
 static const double firm = 1e6;
 

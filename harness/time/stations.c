@@ -264,7 +264,7 @@ void dense_output_at(const dense_output *b, double time, motion_state *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* Relative to the step size: distance to the end of a step below which a station counts as this
+/* Distance to the end of a step, relative to the step size, below which a station counts as this
  * end. */
 static const double same_instant = 1e-9;
 
