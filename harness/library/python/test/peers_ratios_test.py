@@ -40,12 +40,17 @@ class Ratios(ModuleTest):
         self.assertEqual(ratios.reason(one(unknowns=12, systems=10)), "no factor is above 2")
         self.assertEqual(ratios.reason(one(systems=None)), "its number of systems is unknown")
 
+    def test_no_records(self):
+        with self.assertRaisesRegex(bw.Refused, "no recorded comparisons"):
+            ratios.recorded(self.folder)
+
     def test_page(self):
         """The page of the documentation must be that of the records, and its rows below the bound must have reasons."""
         page = (ROOT / "docs" / "reference" / "peer_ratios.md").read_text(encoding="utf-8")
         self.assertEqual(page, ratios.markdown(ratios.recorded(ROOT / "reference" / "peers")))
         rows = [line.split(" | ") for line in page.partition(f"why below {ratios.SMALL}")[2].splitlines()[2:]]
         self.assertTrue(rows)
+        self.assertNotIn("not built in", page)
         for row in rows:
             ratio, *found = (float(word) for word in row[4:8])
             self.assertLess(ratio, ratios.SMALL)

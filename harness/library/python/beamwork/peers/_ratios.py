@@ -7,7 +7,7 @@ import pathlib
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..errors import Error
+from ..errors import Error, Refused
 from ..program import run as program
 from ._ranking import by_case, program_of, rankings
 from ._record import read
@@ -17,15 +17,18 @@ SMALL = 10  # ratios below this are listed with their factors
 _ALIKE = 1.05  # counts and times count as equal up to this factor
 _HEADINGS = (("Statics", {"linear", "static", "compliance", "continuation"}), ("Motions", {"motion"}),
              ("Frequencies and critical loads", {"modal", "buckling"}), ("Scenes that are not built in", {""}))
-_NOTES = (
+_FACTORS = (
     "A ratio is the product of three factors, each of the program relative to beamwork: unknowns, systems solved, and time for each",
-    "unknown of a system. The last column names the factors up to 1. They do not contain these differences:",
-    "* In motions, beamwork uses Radau's method, whose systems contain three stages; those of Exudyn and OpenSees contain one. PyElastica",
-    "  factors no matrices: its explicit steps count as systems.",
-    "* In `sheet_cantilever`, Exudyn's elements move in a plane and give 13 of the 23 quantities; the formulations give all 23 in their time.",
-    "* In `roll_up`, xara's two-node element represents the constant curvature exactly, and converges in one load step on 2 elements.",
-    "  `beamw_consistent` does not: each of the 2 elements would rotate by half a turn, which is the limit of the formulation.",
+    "unknown of a system. The last column names the factors up to 1.",
 )
+_NOTES = {  # of cases, and of cases under a heading: what the factors do not contain
+    "Motions": ("In motions, beamwork uses Radau's method, whose systems contain three stages; those of Exudyn and OpenSees contain one. PyElastica",
+                "factors no matrices: its explicit steps count as systems."),
+    "sheet_cantilever": ("In `sheet_cantilever`, Exudyn's plane elements compute the quantities in this plane only; the formulations compute all in their",
+                         "time."),
+    "roll_up": ("In `roll_up`, xara's two-node element represents the constant curvature exactly, and converges in one load step on 2 elements.",
+                "`beamw_consistent` does not: each of the 2 elements would rotate by half a turn, which is the limit of the formulation."),
+}
 _Record = Mapping[str, Any]
 _Pair = tuple[str, float, Mapping[str, Any], Mapping[str, Any]]  # quantity, error, row of a program, row of beamwork
 
@@ -33,6 +36,8 @@ _Pair = tuple[str, float, Mapping[str, Any], Mapping[str, Any]]  # quantity, err
 def recorded(folder: pathlib.Path) -> list[_Record]:
     """Returns the records in the files of a folder, one for each case."""
     files = [path for path in sorted(folder.glob("*.json")) if path.name != "features.json"]
+    if not files:
+        raise Refused(f"{folder}: no recorded comparisons (FILE.json)")
     return [record for _, record in sorted(by_case(map(read, files)).items())]
 
 
@@ -140,9 +145,9 @@ def markdown(records: Sequence[_Record]) -> str:
              f"Of all {len(every)} ratios, {len(every) - small} are at least {SMALL}.", ""]
     for heading, found in sections.items():
         lines += [f"## {heading}", "", *_ratios(found), ""] if found else []
-    lines += [f"## Ratios below {SMALL}", "", *_NOTES, "",
-              f"| case | error: quantities | program | beamwork | ratio | unknowns | systems | time for each | why below {SMALL} |", "|---" * 9 + "|"]
-    for found in sections.values():
-        for record, _, own in found:
-            lines += _small(record, own)
-    return "\n".join(lines) + "\n"
+    rows = {(heading, record["case"]): rows for heading, found in sections.items() for record, _, own in found if (rows := list(_small(record, own)))}
+    lines += [f"## Ratios below {SMALL}", "", *_FACTORS]
+    for word, (first, *more) in _NOTES.items():
+        lines += [f"* {first}", *(f"  {line}" for line in more)] if any(word in key for key in rows) else []
+    lines += ["", f"| case | error: quantities | program | beamwork | ratio | unknowns | systems | time for each | why below {SMALL} |", "|---" * 9 + "|"]
+    return "\n".join([*lines, *(row for own in rows.values() for row in own)]) + "\n"
