@@ -63,7 +63,7 @@ class Modes(PeerTest):
     def ours(self, made):
         place = self.folder / "ours.yaml"
         made.write(place)
-        return [q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 16)["quantities"]]
+        return [q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 64)["quantities"]]
 
     def test_cantilever(self):
         """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of beamwork,
