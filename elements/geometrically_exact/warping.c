@@ -88,19 +88,26 @@ static void integrate(const beam_constants *c, const basis *b, int stages, const
     for (int k = 0; k < POINTS; k++) {
         functions_at(b, at[k], rest[k], value[k], slope[k]);
         lagrange_at(stages, x, at[k], L[k], NULL);
-        for (int i = 0; i < stages; i++)
+        for (int i = 0; i < stages; i++) {
+            const double share = weight[k] * L[k][i] / w[i];
             for (int j = 0; j < n; j++)
-                mean[i * n + j] += weight[k] * L[k][i] / w[i] * value[k][j];
+                mean[i * n + j] += share * value[k][j];
+        }
     }
     for (int k = 0; k < POINTS; k++) {
         for (int i = 0; i < stages; i++)
             for (int j = 0; j < n; j++)
                 value[k][j] -= L[k][i] * mean[i * n + j];
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++)
-                K[i * n + j] += weight[k] * (c->EIw * slope[k][i] * slope[k][j] +
-                                             c->GJ * value[k][i] * value[k][j]);
+        for (int i = 0; i < n; i++) {
+            const double by_slope = weight[k] * c->EIw * slope[k][i],
+                         by_value = weight[k] * c->GJ * value[k][i];
+            for (int j = 0; j <= i; j++)
+                K[i * n + j] += by_slope * slope[k][j] + by_value * value[k][j];
+        }
     }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++)
+            K[j * n + i] = K[i * n + j];
 }
 
 void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
