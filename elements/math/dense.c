@@ -86,13 +86,19 @@ double dense_dot(int n, const double a[], const double b[])
     return sum;
 }
 
-double dense_quadratic(int n, const double A[], const double x[])
+static inline __attribute__((always_inline)) double quadratic(int n, const double *A,
+                                                              const double *x)
 {
     double sum = 0;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             sum += x[i] * A[i * n + j] * x[j];
     return sum;
+}
+
+double dense_quadratic(int n, const double A[], const double x[])
+{
+    return n == 15 ? quadratic(15, A, x) : n == 8 ? quadratic(8, A, x) : quadratic(n, A, x);
 }
 
 /* Computes y(m) = A(m x n) x. */

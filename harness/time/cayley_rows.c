@@ -53,3 +53,33 @@ void REAL_NAMED(cayley_rows)(int nodes, double share, double at, double weight,
         }
     }
 }
+
+static void turn_rows(const double A[9], double factor, int columns, double rows[])
+{
+    for (int k = 0; k < columns; k++) {
+        const double at[3] = {rows[k], rows[columns + k], rows[2 * columns + k]};
+        for (int i = 0; i < 3; i++)
+            rows[i * columns + k] =
+                factor * (A[3 * i] * at[0] + A[3 * i + 1] * at[1] + A[3 * i + 2] * at[2]);
+    }
+}
+
+void REAL_NAMED(cayley_turn_forces)(const cayley_step *s, int columns, double f[])
+{
+    double common[3 * ELEMENT_MAX_COORDINATES] = {0};
+    const int n = columns;
+    for (int j = 0; j < s->nodes; j++) {
+        double *F = f + (size_t)(NODE_COORDINATES * j) * (size_t)n, *M = F + 3 * n;
+        const double *D = s->Dm[j];
+        turn_rows(s->S, 1, n, F);
+        turn_rows(s->T, s->z[j], n, M);
+        for (int k = 0; k < n; k++) {
+            common[k] += M[k] + D[1] * F[2 * n + k] - D[2] * F[n + k];
+            common[n + k] += M[n + k] + D[2] * F[k] - D[0] * F[2 * n + k];
+            common[2 * n + k] += M[2 * n + k] + D[0] * F[n + k] - D[1] * F[k];
+        }
+    }
+    for (int j = 0; j < s->nodes; j++)
+        for (int k = 0; k < 3 * n; k++)
+            f[(size_t)(NODE_COORDINATES * j + 3) * (size_t)n + (size_t)k] -= s->share * common[k];
+}

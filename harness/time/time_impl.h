@@ -502,6 +502,9 @@ typedef void cayley_rows_function(int nodes, double share, double at, double wei
                                   const cayley_columns[], const double back[12], int rows,
                                   const double A[], double out[]);
 cayley_rows_function cayley_rows_plain, cayley_rows_avx2;
+/* The two versions of cayley_forces. */
+typedef void cayley_forces_function(const cayley_step *, int columns, double f[]);
+cayley_forces_function cayley_turn_forces_plain, cayley_turn_forces_avx2;
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
