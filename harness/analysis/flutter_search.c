@@ -86,9 +86,8 @@ static status look_closely(search *s, double path, int significant, station *out
     if (increment != 0)
         TRY(s->walk(n, path, &increment, f));
     TRY(newton_direction(n, path, &unused, f));
-    status outcome =
-        flutter_motions(n, &s->of, s->of.damped ? COMPARED_MOTIONS : MOTIONS,
-                        significant ? FLUTTER_ERRORS : FLUTTER_MODES, &r, f);
+    status outcome = flutter_motions(n, &s->of, s->of.damped ? COMPARED_MOTIONS : MOTIONS,
+                                     significant ? FLUTTER_ERRORS : FLUTTER_MODES, &r, f);
     if (outcome == STATUS_OK)
         describe(s, &r, out);
     if (outcome == STATUS_OK && out->kind != FLUTTER_NONE) {

@@ -124,8 +124,8 @@ static void keep_continuing(const double value[], guesses *g)
 }
 
 /* next: the state at `path`; NULL: not known yet. */
-static void keep_smooth(const equations *eq, const model_state *const at[],
-                        const model_state *next, double path, guesses *g)
+static void keep_smooth(const equations *eq, const model_state *const at[], const model_state *next,
+                        double path, guesses *g)
 {
     const model *m = eq->m;
     double value[MODEL_EXTRAPOLATED + 1];
