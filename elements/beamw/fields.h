@@ -94,9 +94,9 @@ status beamw_spread_inertia(const beamw_spread *, const node_state x[2],
  * rotary inertia, the twist is linear between the nodes. If the nodes move as a rigid body, all
  * masses move as part of this body. */
 
-/* Adds M, taken, C and K at the rate in `out` to `out`. The second
- * function is for processors with AVX2 and gives bit-for-bit identical results
- * (elements/math/real.h). */
+/* Adds M, taken, C and K at the rate in `out` to `out`; of M, only the upper half is valid
+ * (moving_complete). The second function is for processors with AVX2 and gives bit-for-bit
+ * identical results (elements/math/real.h). */
 typedef void beamw_in_time(const beamw_spread *, const node_state x[2], inertia_output *out);
 beamw_in_time beamw_in_time_plain, beamw_in_time_avx2;
 

@@ -18,6 +18,11 @@ typedef union row {
     part part[PARTS];
     double of[WIDE];
 } row;
+/* A row of N of which only the columns of the rotations of the nodes are not zero. */
+typedef union turns_row {
+    part part[NODES];
+    double of[NODES][WIDE / PARTS];
+} turns_row;
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z }; /* numbered in the order of inertia.c */
 
 static const int turns[NODES] = {MODES_TP, MODES_TQ}, places[NODES] = {MODES_RP, MODES_RQ};
@@ -30,10 +35,11 @@ typedef struct moving_line {
     double A[NODES][9];       /* A of the head: f'' = A f for a vector f that is fixed to a node */
     double n[NODES][AXES][3]; /* unit vectors */
     double m[AXES][3], m_rate[AXES][3];
-    double e[MODES], rate[MODES], second[MODES]; /* modes and their time derivatives */
+    part mode[MODES]; /* each mode, its first and its second time derivative */
     double J[MODES * N], slope[MODES * N];
     row wide_J[MODES], wide_slope[MODES];
-    row M[N], C[N], K[N];
+    row M[N], C[N]; /* of M, the upper half */
+    turns_row K[N];
     double s[MODES]; /* stresses of the modes */
     double mixed[NODES]
                 [3 * MODES]; /* derivatives with respect to the rotation of a node and to a mode */
@@ -62,6 +68,18 @@ static void add_block(double size, const double B[9], int first, int column, dou
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             A[(first + i) * N + column + j] += size * B[3 * i + j];
+}
+
+static void set_sums(moving_line *c)
+{
+    memset(c->s, 0, sizeof c->s);
+    memset(c->mixed, 0, sizeof c->mixed);
+    if (c->out->M != NULL)
+        memset(c->M, 0, sizeof c->M);
+    if (c->out->C != NULL)
+        memset(c->C, 0, sizeof c->C);
+    if (c->out->K != NULL)
+        memset(c->K, 0, sizeof c->K);
 }
 
 static void set_nodes(moving_line *c)
@@ -98,14 +116,17 @@ static void widen(int rows, const double A[], row out[])
 
 static void set_modes(moving_line *c)
 {
-    beamw_modes_evaluate(c->d->l0, c->x, &(strain_output){.e = c->e, .J = c->J});
+    double e[MODES], rate[MODES], second[MODES];
+    beamw_modes_evaluate(c->d->l0, c->x, &(strain_output){.e = e, .J = c->J});
     beamw_modes_slopes(c->d->l0, c->x, c->J, c->out->rate, c->slope);
     widen(MODES, c->J, c->wide_J);
     widen(MODES, c->slope, c->wide_slope);
-    dense_mul_vec(MODES, N, c->J, c->out->rate, c->rate);
-    dense_mul_vec(MODES, N, c->slope, c->out->rate, c->second);
+    dense_mul_vec(MODES, N, c->J, c->out->rate, rate);
+    dense_mul_vec(MODES, N, c->slope, c->out->rate, second);
     for (int j = 0; j < MODES && c->out->acceleration != NULL; j++)
-        c->second[j] += dense_dot(N, c->J + N * j, c->out->acceleration);
+        second[j] += dense_dot(N, c->J + N * j, c->out->acceleration);
+    for (int j = 0; j < MODES; j++)
+        c->mode[j] = (part){e[j], rate[j], second[j], 0};
 }
 
 typedef struct line_point {
@@ -155,9 +176,12 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
     }
     for (int k = 0; k < p->axes; k++) {
         const int axis = p->axis[k];
-        const double second = dense_dot(MODES, p->nu[k], c->second);
-        p->value[k] = dense_dot(MODES, p->nu[k], c->e);
-        p->rate[k] = dense_dot(MODES, p->nu[k], c->rate);
+        part along = {0};
+        for (int j = 0; j < MODES; j++)
+            along += p->nu[k][j] * c->mode[j];
+        const double second = along[2];
+        p->value[k] = along[0];
+        p->rate[k] = along[1];
         for (int i = 0; i < 3; i++) {
             p->F[i] += p->mass * (2 * c->m_rate[axis][i] * p->rate[k] + c->m[axis][i] * second);
             for (int node = 0; node < NODES; node++)
@@ -201,11 +225,32 @@ static void add_turn(double size, const double v[3], int node, row T[3])
             T[i].of[turns[node] + j] += A[3 * i + j];
 }
 
+/* Adds mass T^T U to A from the part of each row that contains its diagonal. */
+static void add_upper(double mass, const row T[3], const row U[3], row A[N])
+{
+    enum { OF_PART = WIDE / PARTS };
+    for (int first = 0; first < PARTS; first++)
+        for (int i = OF_PART * first; i < N && i < OF_PART * (first + 1); i++) {
+            const double a = mass * T[0].of[i], b = mass * T[1].of[i], c = mass * T[2].of[i];
+            for (int j = first; j < PARTS; j++)
+                A[i].part[j] += a * U[0].part[j] + b * U[1].part[j] + c * U[2].part[j];
+        }
+}
+
 static void add_product(double mass, const row T[3], const row U[3], row A[N])
 {
     for (int i = 0; i < N; i++) {
         const double a = mass * T[0].of[i], b = mass * T[1].of[i], c = mass * T[2].of[i];
         for (int j = 0; j < PARTS; j++)
+            A[i].part[j] += a * U[0].part[j] + b * U[1].part[j] + c * U[2].part[j];
+    }
+}
+
+static void add_turns_product(double mass, const row T[3], const turns_row U[3], turns_row A[N])
+{
+    for (int i = 0; i < N; i++) {
+        const double a = mass * T[0].of[i], b = mass * T[1].of[i], c = mass * T[2].of[i];
+        for (int j = 0; j < NODES; j++)
             A[i].part[j] += a * U[0].part[j] + b * U[1].part[j] + c * U[2].part[j];
     }
 }
@@ -229,12 +274,21 @@ static void narrow(const row A[N], double *out)
             out[N * i + j] += A[i].of[j];
 }
 
+static void narrow_turns(const turns_row A[N], double *out)
+{
+    for (int i = 0; i < N && out != NULL; i++)
+        for (int node = 0; node < NODES; node++)
+            for (int j = 0; j < 3; j++)
+                out[N * i + turns[node] + j] += A[i].of[node][j];
+}
+
 /* With T = dy/dx, adds mass T^T T to M, mass T^T dy''/dx' to C, and mass T^T times the part of
  * dy''/dx due to vectors fixed to the nodes to K. */
 static void add_gradients(moving_line *c, const line_point *p)
 {
     const inertia_output *out = c->out;
-    row T[3] = {0}, rates[3] = {0}, places_of[3] = {0};
+    row T[3] = {0}, rates[3] = {0};
+    turns_row places_of[3] = {0};
     for (int k = 0; k < p->axes; k++) {
         const double *m = c->m[p->axis[k]], *m_rate = c->m_rate[p->axis[k]];
         const row gradient = along_modes(p->nu[k], c->wide_J),
@@ -261,15 +315,15 @@ static void add_gradients(moving_line *c, const line_point *p)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) {
                 rates[i].of[turns[node] + j] -= B[3 * i + j] + Wf[3 * i + j];
-                places_of[i].of[turns[node] + j] -= Af[3 * i + j];
+                places_of[i].of[node][j] -= Af[3 * i + j];
             }
     }
     if (out->M != NULL)
-        add_product(p->mass, T, T, c->M);
+        add_upper(p->mass, T, T, c->M);
     if (out->C != NULL)
         add_product(p->mass, T, rates, c->C);
     if (out->K != NULL)
-        add_product(p->mass, T, places_of, c->K);
+        add_turns_product(p->mass, T, places_of, c->K);
 }
 
 /* Adds the second derivative of F . f with respect to the rotation of a node in the exponential
@@ -390,14 +444,18 @@ static void add_warping(const inertia_output *out, double mass)
 void REAL_NAMED(beamw_in_time)(const beamw_spread *d, const node_state x[2], inertia_output *out)
 {
     static const double none[3] = {0, 0, 0};
-    moving_line c = {.d = d, .x = x, .out = out};
+    moving_line c;
+    c.d = d;
+    c.x = x;
+    c.out = out;
+    set_sums(&c);
     set_nodes(&c);
     set_modes(&c);
     add_mass(&c, d->lumped.mass, d->lumped.vectors > 0 ? d->lumped.vector[0] : none, 1);
     add_rotary(&c);
     narrow(c.M, out->M);
     narrow(c.C, out->C);
-    narrow(c.K, out->K);
+    narrow_turns(c.K, out->K);
     if (out->taken != NULL)
         dense_add_transpose_mul(N, MODES, 1, c.J, c.s, out->taken);
     if (out->K != NULL)
