@@ -281,26 +281,51 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
+/* Returns the result with all physics on one mesh, and keeps it in `known`. */
+static const cell_result *whole_result(const scene *s, const element_type *type, int elements,
+                                       whole_results *known)
+{
+    int i = 0;
+    fault f;
+    while (i < known->count && known->elements[i] != elements)
+        i++;
+    if (i < known->count)
+        return &known->cell[i];
+    if (i == WHOLE_RESULTS)
+        cell_result_free(&known->cell[--i]);
+    known->elements[i] = elements;
+    known->count = i + 1;
+    solve(s, type, 0, elements, &known->cell[i], &f);
+    return &known->cell[i];
+}
+
+void whole_results_free(whole_results *known)
+{
+    for (int i = 0; i < known->count; i++)
+        cell_result_free(&known->cell[i]);
+    known->count = 0;
+}
+
 /* Returns the largest relative change of a quantity on one mesh if the physics out->what are
  * omitted. NAN: a value is missing, and out->why gives the reason. */
-static double change_on(const scene *s, const element_type *type, int elements, omission *out)
+static double change_on(const scene *s, const element_type *type, int elements,
+                        whole_results *known, omission *out)
 {
-    cell_result with, without;
+    const cell_result *with = whole_result(s, type, elements, known);
+    cell_result without;
     fault f = {""};
     double largest = NAN;
-    solve(s, type, 0, elements, &with, &f);
     solve(s, type, out->what, elements, &without, &f);
-    if (is_whole(s, &with, out->why) && is_whole(s, &without, out->why)) {
+    if (is_whole(s, with, out->why) && is_whole(s, &without, out->why)) {
         largest = 0;
         for (int q = 0; q < s->quantities; q++) {
-            const double change = change_of(s, &with.solve, &without.solve, q);
+            const double change = change_of(s, &with->solve, &without.solve, q);
             if (change <= largest)
                 continue;
             largest = change;
             snprintf(out->quantity, sizeof out->quantity, "%s", s->quantity[q].name);
         }
     }
-    cell_result_free(&with);
     cell_result_free(&without);
     return largest;
 }
@@ -317,7 +342,7 @@ static int agree(double coarse, double fine)
  * larger of these changes times omission_safety or, if the last change exceeds many_times
  * omission_most, the last change. If a further solution would take longer than `brief`, one change
  * above this bound is sufficient. */
-static void estimate(const scene *s, const element_type *type, omission *out)
+static void estimate(const scene *s, const element_type *type, whole_results *known, omission *out)
 {
     enum { FINEST = 32 };
     double last = NAN;
@@ -331,7 +356,7 @@ static void estimate(const scene *s, const element_type *type, omission *out)
             snprintf(out->why, sizeof out->why, "a solution would take more than %g s", longest);
             return;
         }
-        const double change = change_on(s, type, n, out);
+        const double change = change_on(s, type, n, known, out);
         if (isfinite(last) && isfinite(change) && agree(last, change)) {
             out->change =
                 change > many_times * omission_most ? change : omission_safety * fmax(last, change);
@@ -348,7 +373,7 @@ static void estimate(const scene *s, const element_type *type, omission *out)
                  "fewer than two meshes of up to %d elements have all values", FINEST);
 }
 
-static void find_change(const scene *s, omission *out)
+static void find_change(const scene *s, whole_results *known, omission *out)
 {
     const element_type *whole = whole_model(s);
     out->exact = (out->what & ~absent_in_sections(s) & ~absent_in_analyses(s)) == 0;
@@ -360,24 +385,34 @@ static void find_change(const scene *s, omission *out)
     else if (!can_be_shown(s))
         snprintf(out->why, sizeof out->why, "a section is given by its matrices");
     else
-        estimate(s, whole, out);
+        estimate(s, whole, known, out);
 }
 
 double omission_on_mesh(const scene *s, unsigned what, int elements)
 {
     const element_type *whole = whole_model(s);
     omission out = {.what = what};
-    return whole != NULL ? change_on(s, whole, elements, &out) : NAN;
+    whole_results known = {.count = 0};
+    const double change = whole != NULL ? change_on(s, whole, elements, &known, &out) : NAN;
+    whole_results_free(&known);
+    return change;
 }
 
-void omission_of(const scene *s, const element_type *type, omission *out)
+void omission_beside(const scene *s, const element_type *type, whole_results *known, omission *out)
 {
     *out = (omission){.what = missing_omits(s, type), .change = NAN};
     missing_omit_words(out->what, out->words);
     if (out->what == 0)
         return;
-    find_change(s, out);
+    find_change(s, known, out);
     out->other = !(out->change <= omission_most); /* true even for NAN */
+}
+
+void omission_of(const scene *s, const element_type *type, omission *out)
+{
+    whole_results known = {.count = 0};
+    omission_beside(s, type, &known, out);
+    whole_results_free(&known);
 }
 
 void omission_words(const omission *o, char text[OMISSION_TEXT])

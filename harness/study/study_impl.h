@@ -22,6 +22,17 @@ extern const double omission_safety;
  * omitted. NAN: a value is missing, or no formulation supports all physics of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
 
+/* Results of a scene with all physics on several meshes, which all omissions of the scene share. */
+enum { WHOLE_RESULTS = 6 };
+typedef struct whole_results {
+    int count, elements[WHOLE_RESULTS];
+    cell_result cell[WHOLE_RESULTS];
+} whole_results;
+
+/* Like omission_of; solves with all physics only on meshes that are not in `known`. */
+void omission_beside(const scene *, const element_type *, whole_results *known, omission *out);
+void whole_results_free(whole_results *);
+
 /* Returns 1 if the lists of the rule match the subject and the condition is true. A term of the
  * condition is a feature that the scene requires ("shear", "not shear"), or compares a parameter of
  * the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015"; also <, <= and >=); it is false if

@@ -205,7 +205,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
-static void find_omission(const sweep *s, int index)
+static void find_omission(const sweep *s, int index, whole_results *known)
 {
     series *one = &s->series[index];
     const scene *here = &s->point[one->point].scene;
@@ -215,16 +215,18 @@ static void find_omission(const sweep *s, int index)
             one->without = s->series[i].without;
             return;
         }
-    omission_of(here, one->formulation.type, &one->without);
+    omission_beside(here, one->formulation.type, known, &one->without);
 }
 
 static void plan_omissions(sweep *s, int point_index)
 {
     const sweep_point *p = &s->point[point_index];
+    whole_results known = {.count = 0};
     for (int i = 0; i < s->seriess && p->status == STATUS_OK; i++)
         if (s->series[i].point == point_index && s->series[i].missing[0] == '\0' &&
             s->series[i].imported == NULL)
-            find_omission(s, i);
+            find_omission(s, i, &known);
+    whole_results_free(&known);
 }
 
 enum { MOST_FORMULATIONS = 64 };
