@@ -204,6 +204,10 @@ def read_extreme_findings(path):
     return rows
 
 
+# [bytes] larger columns are compressed; in smaller ones, decompression takes more time than it saves.
+COMPRESSED = 8192
+
+
 def write_columns(group, rows, columns):
     import numpy
     for name in columns:
@@ -214,7 +218,7 @@ def write_columns(group, rows, columns):
         else:
             encoded = [v.encode() for v in values]
             data = numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}")
-            group.create_dataset(name, data=data, compression="gzip" if data.nbytes > 2048 else None)
+            group.create_dataset(name, data=data, compression="gzip" if data.nbytes > COMPRESSED else None)
 
 
 def seal(path):
