@@ -14,8 +14,9 @@ const parameter_type *parameter_at(const parameter_type *const part[PARAMETER_PA
 int parameter_count(const parameter_type *const part[PARAMETER_PARTS])
 {
     int n = 0;
-    while (parameter_at(part, n) != NULL)
-        n++;
+    for (int p = 0; p < PARAMETER_PARTS && part[p] != NULL; p++)
+        for (const parameter_type *one = part[p]; one->name != NULL; one++)
+            n++;
     return n;
 }
 

@@ -20,12 +20,12 @@ static int may_differ(const truth *row, const parameter_type *p)
 
 static int same_point(const truth *row, const case_type *type, const double value[])
 {
-    const int count = parameter_count(type->parameters);
     const double *at = row->parameter;
-    for (int i = 0; i < count; i++)
-        if (!row->any[i] && fabs(value[i] - at[i]) > 1e-14 * fabs(at[i]) &&
-            !may_differ(row, parameter_at(type->parameters, i)))
-            return 0;
+    int i = 0;
+    for (int part = 0; part < PARAMETER_PARTS && type->parameters[part] != NULL; part++)
+        for (const parameter_type *p = type->parameters[part]; p->name != NULL; p++, i++)
+            if (!row->any[i] && fabs(value[i] - at[i]) > 1e-14 * fabs(at[i]) && !may_differ(row, p))
+                return 0;
     return 1;
 }
 
