@@ -408,7 +408,7 @@ const char *mistakes_remedy(const char *near, const char *remedy, char text[FAUL
 status mistakes_status(const mistakes *m, fault *f)
 {
     if (m->out_of_memory)
-        return fault_set(f, STATUS_FAULT, "%.100s: out of memory", m->file);
+        return fault_memory(f, "%.100s", m->file);
     if (m->count == 0)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED, "%.100s:%d:%d: %.200s", m->file, m->list[0].line,

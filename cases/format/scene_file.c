@@ -122,7 +122,7 @@ static status read_from(const char *bytes, size_t size, const char *path, const 
     *out = NULL;
     scene_file *file = calloc(1, sizeof *file);
     if (file == NULL)
-        return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
+        return fault_memory(f, "%.200s", path);
     file->path = path;
     file->type.build_from = build_from;
     file->type.context = file;
@@ -152,11 +152,11 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
 {
     FILE *from = fopen(path, "rb");
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.200s cannot be read: %s", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     *size = fread(bytes, 1, room, from);
     const int failed = ferror(from);
     fclose(from);
-    return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
+    return failed ? fault_unreadable(f, path, EIO) : STATUS_OK;
 }
 
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
@@ -175,7 +175,7 @@ static status read_path(const char *path, int built, scene_file **out, mistakes 
     memset(m, 0, sizeof *m);
     m->file = path;
     if (bytes == NULL)
-        return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
+        return fault_memory(f, "%.200s", path);
     const status outcome = read_file(path, bytes, room, built, out, m, f);
     free(bytes);
     return outcome;

@@ -38,8 +38,17 @@ status fault_memory(fault *f, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return fault_set(f, STATUS_FAULT, "out of memory for %s; free memory, or use a smaller model",
+    return fault_set(f, STATUS_FAULT,
+                     "out of memory for %s; close other programs, or reduce the problem, for "
+                     "example with fewer elements",
                      what);
+}
+
+status fault_unreadable(fault *f, const char *path, int why)
+{
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s cannot be read (%s); give the path of an existing, readable file",
+                     path, strerror(why));
 }
 
 const char *status_name(status s)

@@ -41,6 +41,9 @@ __attribute__((format(printf, 2, 3)))
 status
 fault_memory(fault *f, const char *format, ...);
 
+/* Reports that a file could not be read. why: errno. Returns STATUS_FAULT. */
+status fault_unreadable(fault *f, const char *path, int why);
+
 /* not defined in C++, where other headers may use the name */
 #ifndef __cplusplus
 /* Returns from the calling function if the call failed. Suitable only for functions that have

@@ -249,7 +249,7 @@ static status allocate_results(const solver *s, int modes, arnoldi_result *r, fa
     r->mode = modes ? calloc(count * n + 1, sizeof *r->mode) : NULL;
     r->residual = calloc(count + 1, sizeof *r->residual);
     if (r->theta == NULL || (modes && r->mode == NULL) || r->residual == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->found);
+        return fault_memory(f, "%d modes", s->found);
     r->count = s->found;
     for (int i = 0; i < s->found; i++)
         r->theta[i] = s->re[s->order[i]] + I * s->im[s->order[i]];
@@ -309,7 +309,7 @@ static status allocate(solver *s, fault *f)
     s->order = calloc(room + 1, sizeof *s->order);
     s->x = calloc(n + 1, sizeof *s->x);
     if (s->Q == NULL || s->H == NULL || s->order == NULL || s->x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors", s->room);
+        return fault_memory(f, "%d vectors", s->room);
     s->TQ = s->Q + room * n;
     s->work = s->TQ + room * n;
     s->A = s->H + room * room;

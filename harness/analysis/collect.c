@@ -96,7 +96,7 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
 {
     double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma);
     if (sigma == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the shape of a linear solution");
+        return fault_memory(f, "the shape of a linear solution");
     const status outcome = keep_displacements(c, analysis, sigma, s, f);
     free(sigma);
     return outcome;
@@ -123,9 +123,8 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
     if (side->mode == NULL)
         return STATUS_OK;
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
-    const status outcome =
-        x != NULL ? keep_modes_in(c, analysis, side, x, s, f)
-                  : fault_set(f, STATUS_FAULT, "out of memory for the shape of a mode");
+    const status outcome = x != NULL ? keep_modes_in(c, analysis, side, x, s, f)
+                                     : fault_memory(f, "the shape of a mode");
     free(x);
     return outcome;
 }
@@ -193,7 +192,7 @@ static status workspace_alloc(const analysis_context *c, workspace *w, fault *f)
     w->sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *w->sigma);
     w->input = calloc((size_t)c->scene->loads * free_count + 1, sizeof *w->input);
     if (w->residual == NULL || w->sigma == NULL || w->input == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+        return fault_memory(f, "matrices of states");
     w->load = w->residual + all;
     TRY(assemble_pattern_of_states(c->model, c->run->patterns, w->models, &pattern, f));
     TRY(sparse_alloc_like(pattern, &w->K, f));
@@ -221,7 +220,7 @@ static status next(system_matrices *s, state_matrices **out, fault *f)
         const int room = 2 * s->room + 8;
         state_matrices *more = realloc(s->state, (size_t)room * sizeof *more);
         if (more == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+            return fault_memory(f, "matrices of states");
         s->state = more;
         s->room = room;
     }
@@ -409,7 +408,7 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
     out->frequency = malloc((count + 1) * sizeof *out->frequency);
     out->mode = malloc((count * rows + 1) * sizeof *out->mode);
     if (out->frequency == NULL || out->mode == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+        return fault_memory(f, "matrices of states");
     out->modes = found->count;
     if (count > 0) {
         memcpy(out->frequency, found->value, count * sizeof *out->frequency);
@@ -473,7 +472,7 @@ status collect_systems(const analysis_context *c, system_matrices *s, fault *f)
     s->rows = model_sizes(c->model).free;
     s->label = calloc((size_t)s->rows + 1, sizeof *s->label);
     if (s->label == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
+        return fault_memory(f, "matrices of states");
     rows_label(c->model, s->label);
     memset(&w, 0, sizeof w);
     status outcome = c->options->systems > 1 ? second_order_list(c->scene, s, f) : STATUS_OK;

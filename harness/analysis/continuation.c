@@ -43,7 +43,7 @@ static status add_point(continuation *p, fault *f)
         if (states != NULL)
             o->state = states;
         if (factors == NULL || controls == NULL || (p->keeps_states && states == NULL))
-            return fault_set(f, STATUS_FAULT, "out of memory for a path");
+            return fault_memory(f, "a path");
         p->room = room;
     }
     if (p->keeps_states) {

@@ -33,7 +33,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
                                &p->mode,   &p->here.tangent, &p->next.tangent, &p->trial.tangent};
     for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         if ((*vector[i] = calloc((size_t)p->n.all + 1, sizeof(double))) == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for a path");
+            return fault_memory(f, "a path");
     metric_of(c->model, p->weight);
     return STATUS_OK;
 }

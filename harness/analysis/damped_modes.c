@@ -15,7 +15,7 @@ enum { ALL_STATES = 400 };
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for damped modes");
+    return fault_memory(f, "damped modes");
 }
 
 static const char *const one_each = "; each integral gain must move the coordinate that it "

@@ -312,7 +312,7 @@ static status close_in(search *s, flutter_point *out, fault *f)
     const size_t n = (size_t)s->found.n;
     out->mode = calloc(n + 1, sizeof *out->mode);
     if (out->mode == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+        return fault_memory(f, "critical loads");
     memcpy(out->mode, s->found.mode + (size_t)s->mode * n, n * sizeof *out->mode);
     return STATUS_OK;
 }

@@ -9,7 +9,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
+    return fault_memory(f, "a harmonic analysis");
 }
 
 static status factor_at(vibration *v, double hertz, fault *f)

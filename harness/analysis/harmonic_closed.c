@@ -19,7 +19,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
+    return fault_memory(f, "the modes of a harmonic analysis");
 }
 
 status harmonic_closed_alloc(vibration *v, fault *f)

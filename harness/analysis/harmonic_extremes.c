@@ -134,7 +134,7 @@ static status sample(vibration *v, const outcome_path *path, samples *s, fault *
     s->value = calloc(room, sizeof *s->value);
     s->station = calloc(room, sizeof *s->station);
     if (outcome == STATUS_OK && (s->hertz == NULL || s->value == NULL || s->station == NULL))
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
+        outcome = fault_memory(f, "a harmonic analysis");
     for (int i = 0; outcome == STATUS_OK && i < path->stations; i++)
         insert(s, path->value[i], i);
     for (int i = 0; outcome == STATUS_OK && i < 2 * SIDES * natural; i++) {

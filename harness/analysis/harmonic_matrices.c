@@ -13,7 +13,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a harmonic analysis");
+    return fault_memory(f, "a harmonic analysis");
 }
 
 double complex harmonic_dynamic(const vibration *v, double w, int k)

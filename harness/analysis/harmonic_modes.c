@@ -13,7 +13,7 @@ enum { MOST_DENSE = 3000 };
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
+    return fault_memory(f, "the modes of a harmonic analysis");
 }
 
 void harmonic_modes_free(harmonic_modes *m)

@@ -25,7 +25,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
+    return fault_memory(f, "the modes of a harmonic analysis");
 }
 
 /* Bounds B: finds the smallest g for which B <= g (M + K/least). Beyond the modes, M <= K/least. */

@@ -99,7 +99,7 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     double *u = calloc(2 * ((size_t)size.vertices * NODE_COORDINATES + n + (size_t)size.driven) + 1,
                        sizeof *u);
     if (u == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+        return fault_memory(f, "imperfections");
     const double *const both[2] = {u, u + (size_t)size.vertices * NODE_COORDINATES};
     double *x = u + 2 * (size_t)size.vertices * NODE_COORDINATES, part[2];
     for (int k = 0; k < 2; k++) {
@@ -157,8 +157,7 @@ status imperfection_of_modes(const analysis_context *c, double x[], fault *f)
 {
     const model_size size = model_sizes(c->model);
     double *mode = calloc((size_t)(size.free + size.driven) + 1, sizeof *mode);
-    status outcome =
-        mode != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+    status outcome = mode != NULL ? STATUS_OK : fault_memory(f, "imperfections");
     for (int i = 0; i < c->scene->imperfections && outcome == STATUS_OK; i++)
         if (c->scene->imperfection[i].analysis != SCENE_NONE)
             outcome = add_mode(c, i, mode, x, f);

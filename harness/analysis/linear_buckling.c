@@ -36,15 +36,14 @@ static status solutions_alloc(const analysis_context *c, int analysis, outcome_l
     l->coordinates = (size_t)size.free + (size_t)size.driven;
     l->acting = calloc((size_t)most, sizeof *l->acting);
     if (l->acting == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for load cases");
+        return fault_memory(f, "load cases");
     for (int number = 1; all && number <= most; number++)
         if (is_read(s, analysis, number))
             l->acting[l->solutions++] = number;
     if (!all)
         l->acting[l->solutions++] = c->eq.loading.acting;
     l->x = calloc((size_t)l->solutions * l->coordinates + 1, sizeof *l->x);
-    return l->x != NULL ? STATUS_OK
-                        : fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+    return l->x != NULL ? STATUS_OK : fault_memory(f, "a linear solution");
 }
 
 static status displace(analysis_context *c, int analysis, linear_system *s, outcome_linear *l,
@@ -154,7 +153,7 @@ static status split_constant(analysis_context *c, linear_system *s, prestresses 
     p->has_constant = 1;
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for constant loads");
+        return fault_memory(f, "constant loads");
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->constant_part, f));
     TRY(linear_system_solve(c, s, 0, p->constant_part.load_x, f));
     TRY(quadratic_forms_load(&c->eq, &p->constant_part, 0, 1, f));

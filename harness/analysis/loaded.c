@@ -237,7 +237,7 @@ static status find_noise(loaded_search *s, fault *f)
     const newton_run *n = &s->n;
     double *x = calloc(2 * (size_t)n->all + 1, sizeof *x), size = 0;
     if (x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+        return fault_memory(f, "critical loads");
     double *y = x + n->all;
     memcpy(x, s->found.positive.mode, (size_t)n->free * sizeof *x);
     sparse_mul(&s->scale, x, y);
@@ -584,7 +584,7 @@ static status store_results(loaded_search *s, outcome_side *out, fault *f)
         free(mode);
         free(found.value);
         free(found.error);
-        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+        return fault_memory(f, "critical loads");
     }
     const int modes = s->found.positive.count < s->wanted ? s->found.positive.count : s->wanted;
     if (s->found.positive.mode != NULL)
@@ -658,7 +658,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
         free(value);
         free(error);
         free(first.mode);
-        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+        return fault_memory(f, "critical loads");
     }
     value[0] = first.path;
     error[0] = first.error;

@@ -13,7 +13,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for feedback loops");
+    return fault_memory(f, "feedback loops");
 }
 
 static int any(int n, const double x[])

@@ -18,8 +18,7 @@ status lowest_values_alloc(int n, lowest_values *l, fault *f)
     *l = (lowest_values){.n = n};
     l->work = malloc((1 + 2 * VECTORS) * size * sizeof *l->work + 1);
     if (l->work == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the stability of %zu coordinates",
-                         size);
+        return fault_memory(f, "the stability of %zu coordinates", size);
     for (size_t c = 0; c < VECTORS; c++)
         for (size_t i = 0; i < size; i++)
             l->work[(1 + c) * size + i] = sin(1 + 1.7 * (double)((c + 1) * (c * size + i)));

@@ -109,7 +109,7 @@ static status separate_equal(modal_forms *about, int multiplicity, double mu[], 
     double *B = calloc(m * m + 3 * m, sizeof *B), *b = B + m * m, *before = b + m,
            *row = before + m;
     if (B == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %zu modes", m);
+        return fault_memory(f, "%zu modes", m);
     memcpy(before, mu, m * sizeof *mu);
     for (size_t j = 0; j < m; j++)
         for (size_t i = 0; i <= j; i++)
@@ -255,7 +255,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     TRY(sparse_alloc_like(&s->K, &about->M, f));
     about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
     if (about->work == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+        return fault_memory(f, "modes");
     TRY(rotating_frame_inertia(&c->eq, NULL, 0, &about->M, NULL, f));
     if (singular)
         TRY(shifted_system(c, s, &about->M, &about->shift, f));

@@ -11,7 +11,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for poles of closed loops");
+    return fault_memory(f, "poles of closed loops");
 }
 
 int poles_integrals(const vibration *v)

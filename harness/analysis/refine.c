@@ -138,5 +138,5 @@ status refine_pole(const sparse of[], double complex *s, double mode[], double *
     }
     free(t.D);
     free(t.order);
-    return room ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a pole");
+    return room ? STATUS_OK : fault_memory(f, "a pole");
 }

@@ -60,7 +60,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
     a->x = calloc(all, sizeof(double));
     a->y = calloc(all, sizeof(double));
     if (a->residual == NULL || a->x == NULL || a->y == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+        return fault_memory(f, "modes");
     TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &pattern, f));
     for (int i = 0; i < 4; i++)
         TRY(sparse_alloc_like(pattern, each[i], f));
@@ -127,7 +127,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     out->shape = calloc(count + 1, sizeof *out->shape);
     status outcome = STATUS_FAULT;
     if (mode == NULL || out->frequency == NULL || out->shape == NULL) {
-        fault_set(f, STATUS_FAULT, "out of memory for modes");
+        fault_memory(f, "modes");
     } else {
         out->growth = out->frequency + count;
         out->error = out->growth + count;
@@ -266,7 +266,7 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
     const outcome_path *o = &out->path;
     out->modes = calloc((size_t)o->stations + 1, sizeof *out->modes);
     if (out->modes == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+        return fault_memory(f, "modes");
     TRY(matrices_alloc(c, a, f));
     for (int i = 0; i < o->stations; i++) {
         if (!are_wanted_at(c, analysis, o, i))

@@ -14,7 +14,7 @@ enum { MOST_COORDINATES = 1000 };
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a state space");
+    return fault_memory(f, "a state space");
 }
 
 static int same_input(const system_input *a, const system_input *b)

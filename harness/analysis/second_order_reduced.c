@@ -10,7 +10,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
+    return fault_memory(f, "a reduced model");
 }
 
 /* Reads the node name from `at` to the next comma. REFUSED: the name is empty, unknown, or already

@@ -4,7 +4,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a state space");
+    return fault_memory(f, "a state space");
 }
 
 status second_order_triplets(int rows, int columns, const double value[], triplets *out, fault *f)

@@ -267,7 +267,7 @@ static status imperfect_begin(const analysis_context *c, imperfect *p, fault *f)
     const model_size size = model_sizes(c->model);
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
     if (x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+        return fault_memory(f, "imperfections");
     status outcome = imperfection_of_modes(c, x, f);
     if (outcome == STATUS_OK)
         outcome = model_imperfect_alloc(c->model, x, &p->shape, f);
@@ -333,7 +333,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     if (result->quantity == NULL || c.outcomes == NULL) {
         free(c.outcomes);
         run_state_end(&run);
-        return fault_set(f, STATUS_FAULT, "out of memory for a solution");
+        return fault_memory(f, "a solution");
     }
     result->quantities = s->quantities;
     fault unsupported = {""};

@@ -275,7 +275,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
 {
     nodal_matrices *more = realloc(r->matrices, ((size_t)r->matrix_sets + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+        return fault_memory(f, "a compliance");
     r->matrices = more;
     *out = &more[r->matrix_sets++];
     **out = (nodal_matrices){.node = what->node, .moments = what->moments};
@@ -283,7 +283,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
     (*out)->compliance = calloc((size_t)stations * 36 + 1, sizeof *(*out)->compliance);
     (*out)->stiffness = calloc((size_t)stations * 36 + 1, sizeof *(*out)->stiffness);
     return (*out)->path == NULL || (*out)->compliance == NULL || (*out)->stiffness == NULL
-               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+               ? fault_memory(f, "a compliance")
                : STATUS_OK;
 }
 
@@ -319,7 +319,7 @@ static status compliance_solve(analysis_context *c, int analysis, node_tangent *
     out->matrix = m->compliance;
     o->value = calloc((size_t)o->stations + 1, sizeof *o->value);
     if (o->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+        return fault_memory(f, "a compliance");
     for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : alone;
         station_matrices at = {0};
@@ -376,8 +376,7 @@ static status add(newton_run *n, int analysis, compliance_walk *w, fault *f)
     if (of->tangent.border.count > 0 && n->condensed == NULL)
         TRY(newton_keep_driven(n, f));
     o->taken = calloc((size_t)w->path->stations + 1, sizeof *o->taken);
-    return o->taken == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
-                            : STATUS_OK;
+    return o->taken == NULL ? fault_memory(f, "a compliance") : STATUS_OK;
 }
 
 static status compliance_walk_begin(newton_run *n, int path, compliance_walk **out, fault *f)
@@ -391,7 +390,7 @@ static status compliance_walk_begin(newton_run *n, int path, compliance_walk **o
         return STATUS_OK;
     compliance_walk *w = calloc(1, sizeof *w + (size_t)count * sizeof w->of[0]);
     if (w == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+        return fault_memory(f, "a compliance");
     *out = w;
     w->path = &scene_walk_of(&s->analysis[path])->path;
     for (int i = 0; i < s->analyses; i++)

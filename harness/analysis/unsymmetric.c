@@ -280,7 +280,7 @@ static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
         TRY(pairs(s, 1, &s->left, f));
     e->x = calloc((3 + (size_t)s->left.count) * n + 1, sizeof *e->x);
     if (e->x == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->left.count);
+        return fault_memory(f, "%d modes", s->left.count);
     e->w = e->x + n;
     e->y = e->w + n;
     e->left = e->y + n;
@@ -516,9 +516,7 @@ static status separate(unsymmetric_solver *s, const growth_estimate *e, fault *f
                            room + 3 * m * m, index + 2 * m);
     }
     const status outcome =
-        index != NULL && room != NULL
-            ? STATUS_OK
-            : fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->right.count);
+        index != NULL && room != NULL ? STATUS_OK : fault_memory(f, "%d modes", s->right.count);
     free(index);
     free(room);
     return outcome;
@@ -557,7 +555,7 @@ static status store_results(unsymmetric_solver *s, fault *f)
     r->error = calloc(count + 1, sizeof *r->error);
     r->mode = calloc(count * (size_t)s->n + 1, sizeof *r->mode);
     if (r->frequency == NULL || r->error == NULL || r->mode == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->right.count);
+        return fault_memory(f, "%d modes", s->right.count);
     r->growth = r->frequency + count;
     r->split = r->growth + count;
     status outcome = s->p->estimate ? left_vectors(s, &e, f) : STATUS_OK;
@@ -581,7 +579,7 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
     s.of = calloc(n + 1, sizeof *s.of);
     status outcome = STATUS_FAULT;
     if (s.scale == NULL || s.of == NULL) {
-        fault_set(f, STATUS_FAULT, "out of memory for modes");
+        fault_memory(f, "modes");
     } else {
         s.x = s.scale + n;
         s.y = s.x + n;

@@ -45,9 +45,12 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
         return message_fail(STATUS_REFUSED,
-                            "--error and --all-dofs require --against; add it, or remove them");
+                            "--error and --all-dofs apply only to a comparison; add, for example, "
+                            "--against collocation, or remove these options");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
-        return message_fail(STATUS_REFUSED, "--set and -n require a case; name the case");
+        return message_fail(
+            STATUS_REFUSED,
+            "--set and -n require a case; name one, such as 'beamwork bench elastica -n 1,2'");
     const status outcome = measure(r, &b, &f);
     bench_free(&b);
     return message_exit(outcome, &f);

@@ -184,14 +184,15 @@ static status check(const error_comparison *d, const bench_options *r, fault *f)
                                      d->s.point[0].type->name, f);
     if (d->s.seriess != 2)
         return fault_set(f, STATUS_REFUSED,
-                         "-k '%.100s' selects only one formulation; use -k to select quantities",
+                         "-k '%.100s' selects only one of the two formulations; remove the names "
+                         "of formulations from it, so that it selects only quantities",
                          r->select);
     return equal_error_quantities(&d->s, &d->t) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
                            "errors cannot be computed, because no quantity has a reference value, "
                            "or a limit on which formulations agree, that applies to both "
-                           "formulations; give -n to compare two meshes");
+                           "formulations; give -n, such as -n 2, to compare meshes instead");
 }
 
 static status compare(error_comparison *d, const bench_options *r, fault *f)
@@ -200,8 +201,8 @@ static status compare(error_comparison *d, const bench_options *r, fault *f)
     TRY(check(d, r, f));
     if (choose_levels(d, m) == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "both formulations achieve none of the errors 10, 1, 0.1 and 0.01 %%; "
-                         "give --error or -n");
+                         "no error of 10, 1, 0.1 or 0.01 %% is achieved by both formulations; give "
+                         "a larger error, such as --error 20%%, or meshes, such as -n 2");
     for (int i = 0; i < d->levels; i++)
         if (equal_error_met(&m[i].at))
             TRY(measure(d, r, m, i, &m[i], f));
@@ -216,8 +217,8 @@ static status check_models(const sweep *s, fault *f)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].without.other)
             return fault_set(f, STATUS_REFUSED,
-                             "%.60s solves a different model of %.60s, without %.100s, so the "
-                             "errors cannot be compared; select meshes with -n",
+                             "%.60s solves a different model of %.60s, without %.100s, so its "
+                             "errors cannot be compared; compare run times on meshes, such as -n 2",
                              s->series[i].formulation.key, s->point[s->series[i].point].type->name,
                              s->series[i].without.words);
     return STATUS_OK;
@@ -326,20 +327,22 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     if (is_program && access(r->against, X_OK) != 0)
         return fault_set(f, STATUS_REFUSED,
                          "program %.200s does not exist or is not executable; give the path of "
-                         "beamwork in another build",
+                         "beamwork in another build, such as --against ../before/build/beamwork",
                          r->against);
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "another program is compared on the same mesh; remove --error and -k");
+                         "another build of beamwork is compared on the same mesh, not at equal "
+                         "errors; remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--inject-slowdown and a second mesh apply only to --against FORMULATION; remove them");
+        return fault_set(f, STATUS_REFUSED,
+                         "--inject-slowdown and a second mesh apply only to --against FORMULATION; "
+                         "remove --inject-slowdown, and give one number with -n");
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--error and -k determine the meshes; remove -n, or --error and -k");
+                         "-n gives the meshes, but --error and -k determine them; remove -n, or "
+                         "remove --error and -k");
     return against_meshes(r, type, is_program, f);
 }
 
@@ -348,15 +351,17 @@ int bench_against_run(bench_options *r)
     fault f = {""};
     if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||
         r->meshes.count > 2)
-        return message_fail(STATUS_REFUSED,
-                            "--against compares two formulations; give one CASE or --scene, one "
-                            "-f, and at most two numbers of elements with -n (for A and for B)");
+        return message_fail(
+            STATUS_REFUSED,
+            "--against requires one case or --scene, at most one -f, and at most two numbers with "
+            "-n, as in 'beamwork bench elastica -f beamw --against collocation -n 4,2'");
     if (r->output != NULL)
         return message_fail(STATUS_REFUSED,
-                            "--against does not write a file; remove -o, or give --format json");
+                            "--against does not write a results file; remove -o, and redirect the "
+                            "output if needed, as in --format json > times.json");
     if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED,
-                            "--against supports only --format text and json; give one of these");
+                            "--against does not support --format csv; give --format text or json");
     const case_type *type = case_input_find(&r->of);
     return type != NULL ? message_exit(against_other(r, type, &f), &f) : r->of.refusal;
 }

@@ -90,7 +90,7 @@ status cells_write(FILE *to, const sweep *s, int index, digest *content, fault *
     add_numbers(content, one->noise, s->point[one->point].scene.quantities);
     good = good && put_array(to, one->noise, noise_size(s, one)) &&
            put_array(to, one->timing, meshes * sizeof *one->timing);
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a batch");
+    return good ? STATUS_OK : fault_memory(f, "a batch");
 }
 
 status cells_read(FILE *from, sweep *s, int index, fault *f)
@@ -241,7 +241,7 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
 {
     char *keep = malloc((size_t)c->s->seriess + 1);
     if (keep == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for series");
+        return fault_memory(f, "series");
     memset(keep, 1, (size_t)c->s->seriess);
     for (int b = 0; b < c->w.batches; b++) {
         int range[2];
@@ -260,7 +260,7 @@ static status spread(cut *c, const shard_options *r, identity_texts *texts, spre
     digest plan;
     TRY(identity_make(r->line, texts, &plan, f));
     if (!alloc(c))
-        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+        return fault_memory(f, "batches");
     c->w.cost = c->cost;
     make_batches(c);
     identity_add_sweep(&plan, c->s);

@@ -90,9 +90,10 @@ static int compare(const command_line *l, const compare_request *r, const stored
     if (c.pairs > 0)
         return comparison_differs(&c) ? DIFFERS : SAME;
     fault_set(f, STATUS_FAULT,
-              "nothing was compared, because %.80s and %.80s have no %s in common; give runs of "
-              "the same cases and formulations",
-              l->argument[0], l->argument[1], c.whole ? "run" : "series");
+              "nothing was compared, because %.80s and %.80s have no %s%s in common; give results "
+              "of the same cases and formulations%s",
+              l->argument[0], l->argument[1], r->select != NULL ? "selected " : "",
+              c.whole ? "run" : "series", r->select != NULL ? ", or change -k" : "");
     return trouble(f);
 }
 
@@ -101,14 +102,14 @@ static status check_sweeps(const command_line *l, const stored_results *before,
 {
     if (l->argument[1] == NULL && before->swept)
         return fault_set(f, STATUS_REFUSED,
-                         "%.80s is a sweep, which has no short table; 'beamwork sweep --format "
-                         "csv' writes its values",
+                         "%.80s contains a sweep, for which there is no short table; to write its "
+                         "values, repeat the sweep with --format csv -o FILE.csv",
                          l->argument[0]);
     if (l->argument[1] == NULL || before->swept == after->swept)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%.80s is a sweep, but %.80s is not; give two sweeps or two runs of verify, "
-                     "and use --experiment sweep for files that contain both",
+                     "%.80s contains a sweep, but %.80s does not; compare two sweeps or two runs "
+                     "of verify (add --experiment sweep if a file contains both)",
                      before->swept ? l->argument[0] : l->argument[1],
                      before->swept ? l->argument[1] : l->argument[0]);
 }
@@ -160,8 +161,9 @@ static int answer(const command_line *l, void *request)
     if (r->hash && l->arguments > 0)
         return print_hashes(l, r);
     if (l->argument[0] == NULL || (l->argument[1] == NULL) != (r->output != NULL))
-        return message_fail(STATUS_REFUSED, "give two stored runs to compare, or one stored run "
-                                            "and -o FILE.csv for its short table");
+        return message_fail(STATUS_REFUSED,
+                            "compare requires two results files, such as 'beamwork compare old.h5 "
+                            "new.h5', or one results file and -o FILE.csv for its short table");
     const status outcome = read_runs(l, r, &limits, &before, &after, &f);
     int code = SAME;
     if (outcome != STATUS_OK)

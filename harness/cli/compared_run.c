@@ -67,7 +67,7 @@ static status read_lap(compared_run *c, FILE *from, double *seconds, fault *f)
     return *seconds > 0 ? STATUS_OK
                         : fault_set(f, STATUS_FAULT,
                                     "%s: the output of 'solve --format json' contains no times; "
-                                    "use a newer version of the program",
+                                    "give the path of a newer build of beamwork",
                                     c->program);
 }
 
@@ -76,7 +76,9 @@ static status lap_elsewhere(compared_run *c, double *seconds, fault *f)
     int ends[2], how = 0;
     const pid_t child = pipe(ends) == 0 ? fork() : -1;
     if (child < 0)
-        return fault_set(f, STATUS_FAULT, "cannot start %s", c->program);
+        return fault_set(f, STATUS_FAULT,
+                         "%s cannot be started; close other programs, and run the command again",
+                         c->program);
     if (child == 0) {
         dup2(ends[1], STDOUT_FILENO);
         close(ends[0]);
@@ -89,17 +91,19 @@ static status lap_elsewhere(compared_run *c, double *seconds, fault *f)
     }
     close(ends[1]);
     FILE *from = fdopen(ends[0], "r");
-    const status outcome = from != NULL
-                               ? read_lap(c, from, seconds, f)
-                               : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
+    const status outcome = from != NULL ? read_lap(c, from, seconds, f)
+                                        : fault_set(f, STATUS_FAULT,
+                                                    "the output of %s cannot be read; close other "
+                                                    "programs, and run the command again",
+                                                    c->program);
     if (from != NULL)
         fclose(from);
     waitpid(child, &how, 0);
     if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
         return outcome;
     return fault_set(f, STATUS_FAULT,
-                     "%s does not complete this run; use a version that supports the case, the "
-                     "formulation and the options",
+                     "%s did not complete this run; give the path of a build of beamwork that "
+                     "supports this case, formulation and options",
                      c->program);
 }
 

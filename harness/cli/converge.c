@@ -40,13 +40,13 @@ static status add_peers(converge_request *r, const case_type *type, peers_folder
         at->folder[0] = '\0';
         return fault_set(f, STATUS_FAULT,
                          "a temporary folder for the results of --peers cannot be created; make "
-                         "sure that /tmp is writable and not full");
+                         "/tmp writable, and free space there");
     }
     snprintf(at->file, sizeof at->file, "%s/peers.h5", at->folder);
     TRY(peers_solve(&r->of, type, &r->meshes, r->peers, at->file, &found, f));
     if (found && r->imported.count == COMMAND_MOST_WORDS)
         return fault_set(f, STATUS_REFUSED,
-                         "there are too many files of --imported; give fewer, or remove --peers");
+                         "too many files are given with --imported; give fewer, or remove --peers");
     if (found)
         r->imported.text[r->imported.count++] = at->file;
     return STATUS_OK;

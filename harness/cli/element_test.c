@@ -34,9 +34,8 @@ static void choose(const command_line *l, element_test_request *r)
 
 static status add_file(const void *context, const char *path, fault *f)
 {
-    return digest_add_file(*(digest *const *)context, path) == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
+    return digest_add_file(*(digest *const *)context, path) == 0 ? STATUS_OK
+                                                                 : fault_unreadable(f, path, errno);
 }
 
 /* Computes the hash of a formulation: of the element file; for a command, of the files in the
@@ -58,8 +57,9 @@ static status read_format(const verb_option *o, void *member, const char *value,
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
         if (strcmp(value, forms[i]) == 0)
             return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED, "--format %.40s: give text, json, csv, markdown or latex",
-                     value);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "--format %.40s is not supported here; give text, json, csv, markdown or latex", value);
 }
 
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)

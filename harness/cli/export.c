@@ -34,8 +34,9 @@ static status export(const export_request *r, const case_type *type, scene *s, f
             f, STATUS_REFUSED,
             "--to must name the program that will read the input deck; give --to calculix");
     if (r->meshes.count > 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "an input deck contains only one mesh; give a single number with -n");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "an input deck contains only one mesh; give a single number with -n, such as -n 20");
     TRY(files_check(r->of.line, 0, NULL, f));
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     case_input_name(&r->of, type, of, sizeof of);

@@ -1,5 +1,6 @@
 #include "harness/cli/cli_impl.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,9 +108,8 @@ static json_t *words_of(const command_line *l, path_form form)
 
 static status add_file(const void *context, const char *path, fault *f)
 {
-    return digest_add_file(*(digest *const *)context, path) == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
+    return digest_add_file(*(digest *const *)context, path) == 0 ? STATUS_OK
+                                                                 : fault_unreadable(f, path, errno);
 }
 
 /* Adds the length and the checksum of the reference values, which are checked when they are

@@ -28,8 +28,9 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
 /* Reports a file with errors, which have been printed. Returns `outcome`. */
 static status refuse(const char *path, status outcome, fault *f)
 {
-    return fault_set(f, outcome,
-                     "nothing was imported, because %.200s contains errors; correct them", path);
+    return fault_set(
+        f, outcome,
+        "nothing was imported, because %.200s contains errors; correct the listed errors", path);
 }
 
 static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
@@ -66,10 +67,11 @@ static void report(const sweep *s)
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         const sweep_point *p = &s->point[one->point];
-        printf("%s%s%s: %s%s%s, %d values, %d %s%s%s\n", p->type->name,
-               p->text[0] != '\0' ? "; " : "", p->text, one->formulation.key,
-               one->imported->version[0] != '\0' ? ", version " : "", one->imported->version,
-               one->imported->rows, one->meshes, one->meshes == 1 ? "mesh" : "meshes",
+        printf("%s%s%s: %s%s%s, %d %s, %d %s%s%s\n", p->type->name, p->text[0] != '\0' ? "; " : "",
+               p->text, one->formulation.key, one->imported->version[0] != '\0' ? ", version " : "",
+               one->imported->version, one->imported->rows,
+               one->imported->rows == 1 ? "value" : "values", one->meshes,
+               one->meshes == 1 ? "mesh" : "meshes",
                imported_same_model(one->imported) ? "" : "; another model: ",
                imported_same_model(one->imported) ? "" : one->imported->model);
     }
@@ -81,19 +83,22 @@ static status check_again(const sweep *s, fault *f)
         for (int k = 0; k < i; k++)
             if (s->series[i].point == s->series[k].point &&
                 strcmp(s->series[i].formulation.key, s->series[k].formulation.key) == 0)
-                return fault_set(f, STATUS_REFUSED,
-                                 "%.100s: results for the same program, case and parameters are in "
-                                 "%.80s:%d and %.80s:%d; remove one of them",
-                                 s->series[i].formulation.key, s->series[k].imported->file,
-                                 s->series[k].imported->row[0].line, s->series[i].imported->file,
-                                 s->series[i].imported->row[0].line);
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "%.100s: results for the same program, case and parameters are in %.80s:%d and "
+                    "%.80s:%d; remove one of them, or change '# program:' in one",
+                    s->series[i].formulation.key, s->series[k].imported->file,
+                    s->series[k].imported->row[0].line, s->series[i].imported->file,
+                    s->series[i].imported->row[0].line);
     return STATUS_OK;
 }
 
 static status import(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     if (l->arguments == 0 || r->output == NULL)
-        return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
+        return fault_set(f, STATUS_REFUSED,
+                         "import requires one or more files and an output, such as 'beamwork "
+                         "import theirs.csv -o theirs.h5'");
     TRY(files_check(l, 1, NULL, f));
     TRY(r->map != NULL ? read_mapped(l, r, set, f) : read_files(l, r, set, f));
     TRY(check_again(&set->sweep, f));

@@ -19,7 +19,7 @@ static status add(again *out, const char *text, fault *f)
 {
     char *copy = out->count < MOST ? strdup(text) : NULL;
     if (copy == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the command line");
+        return fault_memory(f, "the command line");
     out->argument[out->count] = out->owned[out->count] = copy;
     out->count++;
     return STATUS_OK;
@@ -65,7 +65,8 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
     const char *name = json_string_value(json_object_get(label->origin, "verb"));
     if (name == NULL)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the batches do not contain their request; compute them again",
+                         "%.200s: the batches do not contain their request; delete them, and "
+                         "compute them again with this version of beamwork",
                          l->argument[0]);
     TRY(add(out, "beamwork", f));
     TRY(add(out, name, f));
@@ -111,7 +112,7 @@ static int answer(const command_line *l, void *request)
     if (l->arguments == 0)
         return message_fail(
             STATUS_REFUSED,
-            "merge: no folder is given; give the folders of --shard K/N --into FOLDER");
+            "merge requires the folders of --into, such as 'beamwork merge batches -o results.h5'");
     const status outcome = again_make(l, &a, &f);
     const int code = outcome == STATUS_OK ? ask(&a, l->verbs) : message_fail(outcome, f.text);
     again_free(&a);

@@ -312,10 +312,10 @@ static void add_argument(command_line *l, const char *text)
 {
     if (l->arguments == verb_most_arguments(l->verb->arguments)) {
         char words[200];
-        snprintf(
-            words, sizeof words,
-            "there are too many arguments, from '%.60s' on; 'beamwork %.40s -h' shows the usage",
-            text, l->verb->name);
+        snprintf(words, sizeof words,
+                 "there are too many arguments, from '%.60s' on; remove them ('beamwork %.40s -h' "
+                 "shows the usage)",
+                 text, l->verb->name);
         message_refuse(words);
     }
     l->argument[l->arguments++] = text;
@@ -326,11 +326,13 @@ static void add_given(command_line *l, const verb_option *o, const char *value)
     char text[160];
     const int once = o->argument != NULL && (o->traits & OPTION_REPEATS) == 0;
     if (once && given_value(l, o->name) != NULL) {
-        snprintf(text, sizeof text, "--%s is given twice; give one value", o->name);
+        snprintf(text, sizeof text,
+                 "--%s is given twice, but accepts only one value; remove one of them", o->name);
         message_refuse(text);
     }
     if (l->givens == COMMAND_MOST_GIVEN)
-        message_refuse("too many options; give fewer");
+        message_refuse(
+            "too many options are given; remove some, or run the command for fewer files");
     l->given[l->givens++] = (given_option){o, value};
 }
 

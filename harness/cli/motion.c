@@ -26,7 +26,9 @@ static status ask(motion_options *r, motion_request *out, fault *f)
     out->formulation = r->chosen.formulation;
     out->formulations = r->chosen.formulations;
     if (r->meshes.count > 1)
-        return fault_set(f, STATUS_REFUSED, "motion accepts one mesh; give one number with -n");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "motion accepts only one number of elements; give a single number, such as -n 4");
     return r->vary.count < 2
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED, "motion accepts only one --vary; remove the others");

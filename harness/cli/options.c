@@ -252,8 +252,8 @@ status errors_parse(const char *text, int most, double level[], int *count, faul
         at = *count < most ? parse_one(at, &level[*count]) : NULL;
         if (at == NULL)
             return fault_set(f, STATUS_REFUSED,
-                             "--error '%.60s' is not valid; give at most %d values between 0 and "
-                             "100 %%, such as 1%%",
+                             "--error '%.60s' is not valid; give at most %d values above 0 and "
+                             "below 100 %%, such as 1%%,0.1%%",
                              text, most);
         ++*count;
     } while (*at++ == ',');
@@ -263,12 +263,11 @@ status errors_parse(const char *text, int most, double level[], int *count, faul
 status option_error(const verb_option *o, void *member, const char *value, fault *f)
 {
     const char *end = parse_one(value, member);
-    return end != NULL && *end == '\0'
-               ? STATUS_OK
-               : fault_set(
-                     f, STATUS_REFUSED,
-                     "--%s '%.60s' is not valid; give a value between 0 and 100 %%, such as 1%%",
-                     o->name, value);
+    return end != NULL && *end == '\0' ? STATUS_OK
+                                       : fault_set(f, STATUS_REFUSED,
+                                                   "--%s '%.60s' is not valid; give a value above "
+                                                   "0 and below 100 %%, such as 1%%",
+                                                   o->name, value);
 }
 
 static status read_format(const verb_option *o, void *member, const char *value, fault *f)
@@ -277,20 +276,23 @@ static status read_format(const verb_option *o, void *member, const char *value,
     *(const char **)member = value;
     return strcmp(value, "text") == 0 || strcmp(value, "json") == 0 || strcmp(value, "csv") == 0
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "--format %.40s: give text, json or csv", value);
+               : fault_set(f, STATUS_REFUSED,
+                           "--format %.40s is not supported here; give text, json or csv", value);
 }
 
 static status read_record(const verb_option *o, void *member, const char *value, fault *f)
 {
     if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0)
-        return fault_set(f, STATUS_REFUSED, "--format %.40s: give text or json", value);
+        return fault_set(f, STATUS_REFUSED,
+                         "--format %.40s is not supported here; give text or json", value);
     return read_format(o, member, value, f);
 }
 
 static status read_table(const verb_option *o, void *member, const char *value, fault *f)
 {
     if (strcmp(value, "text") != 0 && strcmp(value, "csv") != 0)
-        return fault_set(f, STATUS_REFUSED, "--format %.40s: give text or csv", value);
+        return fault_set(f, STATUS_REFUSED,
+                         "--format %.40s is not supported here; give text or csv", value);
     return read_format(o, member, value, f);
 }
 
@@ -416,7 +418,7 @@ static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for scene files");
+        return fault_memory(f, "scene files");
     for (const char *c = folder; *c != '\0'; c++) {
         if (strchr("\\*?[", *c) != NULL)
             *at++ = '\\';
@@ -427,13 +429,14 @@ static status find_scenes(const char *folder, glob_t *found, fault *f)
     free(pattern);
     if (failed == GLOB_NOMATCH)
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s: the folder contains no *.yaml; give a scene file", folder);
-    return failed == 0
-               ? STATUS_OK
-               : fault_set(
-                     f, STATUS_FAULT,
-                     "%.200s: the folder cannot be read; make it readable, or give a scene file",
-                     folder);
+                         "%.200s: the folder contains no *.yaml files; give a scene file, such as "
+                         "leaf.yaml, or a folder that contains some",
+                         folder);
+    return failed == 0 ? STATUS_OK
+                       : fault_set(f, STATUS_FAULT,
+                                   "%.200s: the folder cannot be read; make it readable (chmod "
+                                   "u+rx), or give a scene file",
+                                   folder);
 }
 
 static status visit_folder(const char *folder, file_visit *visit, const void *context, fault *f)

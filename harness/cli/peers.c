@@ -84,11 +84,15 @@ static status run(const peers_command *c, int *found, fault *f)
         _exit(127);
     }
     if (child < 0 || waitpid(child, &how, 0) < 0 || !WIFEXITED(how) || WEXITSTATUS(how) == 127)
-        return fault_set(f, STATUS_FAULT, "--peers: %s cannot be run; install Python", python);
+        return fault_set(f, STATUS_FAULT,
+                         "--peers: %s cannot be run; install Python, on Debian and Ubuntu with "
+                         "'sudo apt-get install python3'",
+                         python);
     *found = WEXITSTATUS(how) == 0;
     return *found || WEXITSTATUS(how) == NO_VALUES
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "--peers: no program was run; see the line above");
+               : fault_set(f, STATUS_REFUSED,
+                           "--peers: no program was run; correct the error that is printed above");
 }
 
 status peers_solve(const case_options *of, const case_type *type, const mesh_list *meshes,

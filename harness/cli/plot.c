@@ -41,7 +41,7 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
 {
     double *more = realloc(path->value, ((size_t)parts + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a figure");
+        return fault_memory(f, "a figure");
     *path = (scene_path){0, more};
     for (int i = first; i < parts; i++)
         more[path->stations++] = begin + i * ((end - begin) / parts);
@@ -81,7 +81,7 @@ static status add_phase(scene *s, int quantity, fault *f)
     phase.what = what;
     scene_quantity *added = scene_add_quantity(s, name, "rad", phase.analysis, what);
     if (s->out_of_memory)
-        return fault_set(f, STATUS_FAULT, "out of memory for a figure");
+        return fault_memory(f, "a figure");
     added->acting = phase.acting;
     added->reduction = SCENE_CURVE;
     added->x = phase.x;
@@ -143,8 +143,9 @@ static status make_curves(scene *s, fault *f)
     s->quantities = kept;
     if (kept == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no quantity has a curve; add a quantity of a motion, of a path with "
-                         "stations or of a harmonic analysis");
+                         "no quantity can be drawn as a curve; add a quantity of a transient "
+                         "analysis, of a load path with stations or of a harmonic analysis, or "
+                         "choose another case, such as lee_frame");
     for (int i = 0; i < kept; i++)
         TRY(add_phase(s, i, f));
     for (int i = 0; i < s->analyses; i++)
@@ -181,10 +182,10 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     const status solved = solution_run(&what, why, s, f);
     const cell_result *cell = &s->series[0].cell[0];
     if (solved == STATUS_FAULT || cell_values(cell) == 0)
-        return solved != STATUS_OK
-                   ? solved
-                   : fault_set(f, STATUS_REFUSED,
-                               "no quantity has a value; 'beamwork solve' prints the reasons");
+        return solved != STATUS_OK ? solved
+                                   : fault_set(f, STATUS_REFUSED,
+                                               "no quantity has a value, so no figure was drawn; "
+                                               "'beamwork solve' prints the reasons");
     if (solved != STATUS_OK)
         message_fail(solved, f->text);
     fputs(ftell(to) > 0 ? "," : "[", to);
@@ -211,7 +212,8 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
     return fflush(to) == 0 && fseek(to, 0, SEEK_SET) == 0
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT,
-                           "a temporary file cannot be written; check whether the disk is full");
+                           "a temporary file cannot be written in /tmp; make /tmp writable, and "
+                           "free space there");
 }
 
 static void become(int from, int to, const char *folder, const char *form)
@@ -232,8 +234,8 @@ static status draw(FILE *solutions, const char *folder, const char *form, FILE *
     if (child > 0 && WIFEXITED(how) && WEXITSTATUS(how) == COULD_NOT)
         return fault_set(f, STATUS_FAULT, "no figure was drawn; the reason is above");
     return fault_set(f, STATUS_FAULT,
-                     "the plotting program cannot be run; install %s and python3-matplotlib (sudo "
-                     "apt-get install python3-matplotlib)",
+                     "the plotting program cannot be run; install %s and matplotlib, on Debian and "
+                     "Ubuntu with 'sudo apt-get install python3-matplotlib'",
                      python);
 }
 
@@ -245,8 +247,8 @@ static const char *form_of(const char *path, fault *f)
         if (strcasecmp(dot + 1, forms[i]) == 0)
             return forms[i];
     fault_set(f, STATUS_REFUSED,
-              "-o %.200s: plot writes only .png, .svg, .pdf or .csv; give a name that ends in one "
-              "of these",
+              "-o %.200s: plot writes figures (.png, .svg, .pdf) and tables (.csv); give a name "
+              "with one of these endings, such as figure.png",
               path);
     return NULL;
 }
@@ -257,8 +259,9 @@ static status find_reports(char folder[PATH_MAX], fault *f)
     TRY(derive_script("../../reports/graph.py", script, f)); /* from reference/derive */
     if (access(script, R_OK) != 0 || realpath(script, folder) == NULL)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the plotting program was not found; run from a clone or an "
-                         "installed copy, or set BEAMWORK_REFERENCE",
+                         "%.200s: the plotting program was not found; run beamwork from a clone or "
+                         "an installed copy, or set the environment variable BEAMWORK_REFERENCE to "
+                         "the folder 'reference' of a clone",
                          script);
     for (int i = 0; i < 2; i++)
         *strrchr(folder, '/') = '\0';
@@ -292,17 +295,16 @@ static int answer(const command_line *l, void *request)
     if (type == NULL)
         return r->of.refusal;
     if (r->meshes.count > 1)
-        return message_fail(
-            STATUS_REFUSED,
-            "plot accepts only one number of elements (-n), but any number of formulations (-f)");
+        return message_fail(STATUS_REFUSED, "plot accepts one number of elements and any number of "
+                                            "formulations; give a single number, such as -n 4");
     snprintf(path, sizeof path, "%s%s", r->output != NULL ? r->output : type->name,
              r->output != NULL ? "" : ".png");
     FILE *solutions = tmpfile();
-    const status outcome =
-        solutions != NULL
-            ? draw_from(r, type, solutions, path, &f)
-            : fault_set(&f, STATUS_FAULT,
-                        "a temporary file cannot be written; check whether the disk is full");
+    const status outcome = solutions != NULL
+                               ? draw_from(r, type, solutions, path, &f)
+                               : fault_set(&f, STATUS_FAULT,
+                                           "a temporary file cannot be written in /tmp; make /tmp "
+                                           "writable, and free space there");
     if (solutions != NULL)
         fclose(solutions);
     return message_exit(outcome, &f);

@@ -8,10 +8,12 @@ static status add_path(const void *context, const char *path, fault *f)
 {
     scenes *out = *(scenes *const *)context;
     if (out->count == SCENES_MOST)
-        return fault_set(f, STATUS_REFUSED, "more than %d scene files; give fewer", SCENES_MOST);
+        return fault_set(f, STATUS_REFUSED,
+                         "more than %d scene files are given; give fewer with --scene",
+                         SCENES_MOST);
     out->path[out->count] = strdup(path);
     if (out->path[out->count] == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for scene files");
+        return fault_memory(f, "scene files");
     out->count++;
     return STATUS_OK;
 }

@@ -130,7 +130,8 @@ static int answer(const command_line *l, void *request)
     fault f = {""};
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED,
-                            "schema accepts no case; it describes the files of all cases");
+                            "schema accepts no case as an argument, because it describes the files "
+                            "of all cases; remove the argument");
     if (r->format[0] == 'j')
         return message_exit(write_json(l->verbs, &f), &f);
     printf("%s, version %d\n", SCHEMA_NAME, SCHEMA_VERSION);

@@ -278,14 +278,16 @@ static status prepare_ends(const solve_request *r, restart *from, solution_reque
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
-        return fault_set(f, STATUS_REFUSED, "--error chooses the mesh; remove --error, or %s",
+        return fault_set(f, STATUS_REFUSED,
+                         "--error lets beamwork choose the mesh; remove --error, or %s",
                          r->meshes.count > 0 ? "-n" : "--restart");
     if (r->state_space && r->matrices == NULL)
         return fault_set(
             f, STATUS_REFUSED,
-            "--state-space adds to the matrices written by --matrices; add --matrices FOLDER");
+            "--state-space adds files to those of --matrices; add, for example, --matrices folder");
     if (r->reduce != NULL && !r->state_space)
-        return fault_set(f, STATUS_REFUSED, "--reduce requires --state-space; add it");
+        return fault_set(f, STATUS_REFUSED,
+                         "--reduce reduces the model of --state-space; add --state-space");
     TRY(files_check(r->of.line, r->shapes > 0, user_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
@@ -382,11 +384,13 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->chosen.formulations > 1 || r->meshes.count > 1)
         return message_fail(STATUS_REFUSED,
-                            "solve accepts one -f and one -n; 'beamwork converge' accepts several");
+                            "solve accepts one formulation and one mesh; give one -f and one "
+                            "number with -n, or use 'beamwork converge'");
     if (r->follow != NULL)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
-        return message_fail(STATUS_REFUSED, "--shapes requires a file; give -o FILE");
+        return message_fail(STATUS_REFUSED,
+                            "--shapes requires a file; add, for example, -o shapes.h5");
     solve_work w = {.from = {.ends = 0}};
     const status ready = prepare(r, type, &w, &f);
     const int code = ready == STATUS_OK ? solve_and_write(r, &w) : message_fail(ready, f.text);

@@ -35,7 +35,9 @@ static int answer(const command_line *l, void *request)
     extreme_sweep s = {0};
     fault f = {""};
     if (l->arguments > 0)
-        return message_fail(STATUS_REFUSED, "stress accepts no case; select cases with -k");
+        return message_fail(
+            STATUS_REFUSED,
+            "stress accepts no case as an argument; select cases with -k, such as -k elastica");
     const status outcome = run(l, r, &s, &f);
     int code = extreme_sweep_exit(&s);
     if (outcome != STATUS_OK)

@@ -35,16 +35,16 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
 {
     const int kind = r->design != NULL ? choice_index(DESIGN_CHOICES, r->design) : DESIGN_GRID;
     if (kind < 0)
-        return fault_set(f, STATUS_REFUSED, "--design '%.40s': give one of " DESIGN_CHOICES,
-                         r->design);
+        return fault_set(f, STATUS_REFUSED,
+                         "--design '%.40s' is unknown; give one of " DESIGN_CHOICES, r->design);
     q->design = (design_kind)kind;
     q->points = r->points;
     const int seeded = given_value(r->of.line, "seed") != NULL;
     q->seed = seeded ? (unsigned long)r->seed : 1;
     if (kind == DESIGN_GRID && r->points > 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--points requires --design sobol, halton or random; a grid has the points of --vary");
+        return fault_set(f, STATUS_REFUSED,
+                         "--points requires --design sobol, halton or random; add one of these, or "
+                         "remove --points and give a grid such as --vary NAME=1..2/4");
     if (kind != DESIGN_RANDOM && seeded)
         return fault_set(f, STATUS_REFUSED,
                          "--seed requires --design random; add it, or remove --seed");
@@ -59,7 +59,7 @@ static status check_set(const sweep_options *r, const parameter_ranges *s, fault
             if (strncmp(r->of.set.text[i], name, strlen(name)) == 0 &&
                 r->of.set.text[i][strlen(name)] == '=')
                 return fault_set(f, STATUS_REFUSED,
-                                 "%s is both set and varied; give --set or --vary", name);
+                                 "%s is given by both --set and --vary; remove one of them", name);
         }
     return STATUS_OK;
 }
@@ -145,9 +145,12 @@ static int report(const sweep_options *r, const sweeping *s)
     fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->sweep.lost,
             s->sweep.ranges.batches);
     if (r->output != NULL)
-        fprintf(stderr, "the others are in %s; run the same command again\n", s->sweep.batches);
+        fprintf(
+            stderr,
+            "the others are in %s; run the same command again to compute only the missing ones\n",
+            s->sweep.batches);
     else
-        fprintf(stderr, "add -o FILE to store the others\n");
+        fprintf(stderr, "run the command again (with -o FILE, finished batches are kept)\n");
     return EXIT_INTERRUPTED;
 }
 
@@ -244,17 +247,20 @@ status shards_requested(const shard_options *r, int *requested, fault *f)
             f, STATUS_REFUSED,
             "--from reads batches and --into computes them; give only one of these options");
     if (r->shard != NULL && r->into == NULL)
-        return fault_set(f, STATUS_REFUSED, "--shard %.40s requires a folder; give --into FOLDER",
-                         r->shard);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--shard %.40s requires a folder for its batches; add, for example, --into batches",
+            r->shard);
     if (r->partial && r->from.count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "--partial requires --from or 'beamwork merge'; use one of them");
+                         "--partial requires existing batches; give their folder with --from, or "
+                         "use 'beamwork merge FOLDER --partial'");
     if (r->into == NULL || !writes)
         return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
     words_quoted(r->into, folder, sizeof folder);
     return fault_set(f, STATUS_REFUSED,
-                     "--into writes batches; results are written by 'beamwork merge %.100s -o "
-                     "FILE'; remove other outputs",
+                     "--into writes only batches; remove other outputs, and write the results with "
+                     "'beamwork merge %.100s -o FILE' when the batches are complete",
                      folder);
 }
 
@@ -262,10 +268,11 @@ static int report_shard(const shard_options *r, const shard_request *q, const sh
 {
     const int left = o->mine - o->before - o->done;
     if (left > 0) {
-        fprintf(
-            stderr,
-            "beamwork: %s: %d of %d batches of shard %d/%d are missing; start the shard again\n",
-            o->interrupted ? "interrupted" : "incomplete", left, o->mine, q->index + 1, q->count);
+        fprintf(stderr,
+                "beamwork: %s: %d of %d batches of shard %d/%d are missing; start the shard again "
+                "with the same command\n",
+                o->interrupted ? "interrupted" : "incomplete", left, o->mine, q->index + 1,
+                q->count);
         return EXIT_INTERRUPTED;
     }
     if (!r->quiet)
@@ -305,7 +312,9 @@ static status take(const shard_options *r, const shard_work *w, const batch_stor
     batch_store_missing(s, w, missing, sizeof missing);
     if (s->there < s->batches) {
         fprintf(stderr, "beamwork: incomplete: %s%s\n", missing,
-                r->partial ? "" : "; compute them, or use the existing batches with --partial");
+                r->partial ? ""
+                           : "; run the missing shards again with the same options, or add "
+                             "--partial to use the existing batches");
         out->code = EXIT_INTERRUPTED;
         out->ended = !r->partial;
         if (out->ended)
@@ -324,7 +333,7 @@ static status merge(const shard_options *r, const shard_work *w, spread_end *out
     out->batches = w->batches;
     out->taken = calloc((size_t)w->batches + 1, 1);
     if (out->taken == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+        return fault_memory(f, "batches");
     status outcome = batch_store_read(w, r->from.text, r->from.count, NULL, stderr, &s, f);
     if (outcome == STATUS_OK)
         outcome = take(r, w, &s, out, f);

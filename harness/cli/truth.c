@@ -256,7 +256,7 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED,
-                            "truth supports only --format text and json; give one of these");
+                            "truth supports --format text and json; give one of these");
     status outcome = case_input_truths(&r->of, &r->truths, &t, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);

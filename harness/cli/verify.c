@@ -131,11 +131,14 @@ static int answer(const command_line *l, void *request)
     verify_request *r = request;
     scenes own;
     if (l->arguments > 0)
-        return message_fail(STATUS_REFUSED, "verify accepts no case; select cases with -k");
+        return message_fail(
+            STATUS_REFUSED,
+            "verify accepts no case as an argument; select cases with -k, such as -k elastica");
     if (r->imported_must_pass && r->imported.count == 0)
         return message_fail(
             STATUS_REFUSED,
-            "--imported-must-pass requires imported results; add --imported FILE.h5");
+            "--imported-must-pass requires imported results; add --imported theirs.h5, a file "
+            "written by 'beamwork import theirs.csv -o theirs.h5'");
     if (r->verbose && r->shards.quiet)
         return message_fail(STATUS_REFUSED,
                             "--verbose and --quiet are both given; give only one of them");

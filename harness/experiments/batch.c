@@ -113,11 +113,13 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     batch_stem(&w, stem);
     batch_name(stem, label->batch, name);
     if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
-        return fault_set(f, STATUS_FAULT, "%.200s: the name is too long; give a shorter one",
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: the name of the folder is too long; give a shorter one, such as "
+                         "--into batches",
                          folder);
     const status outcome = assemble(label, bytes, size, &whole, &length) == 0
                                ? write_locked(path, whole, length, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for a batch");
+                               : fault_memory(f, "a batch");
     free(whole);
     if (outcome == STATUS_OK)
         keep_names(folder);
@@ -157,7 +159,8 @@ void batch_clean(const char *folder, const char *name, int ended)
 static status no_batch(const char *path, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: the file is not a batch of this program, or it is damaged; delete it",
+                     "%.200s is not a batch of this program, or it is damaged; delete it, and "
+                     "start its shard again",
                      path);
 }
 
@@ -218,7 +221,7 @@ static status read_line(FILE *from, const char *path, batch_label *out, long *si
 
 static status unreadable(const char *path, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be read (%s)", path, strerror(errno));
+    return fault_unreadable(f, path, errno);
 }
 
 status batch_read_label(const char *path, batch_label *out, fault *f)
@@ -247,8 +250,9 @@ status batch_open(const char *path, batch_label *out, FILE **from, long *end, fa
     long size;
     memset(out, 0, sizeof *out);
     if (checksum_check(path, NULL) != STATUS_OK)
-        return fault_set(f, STATUS_FAULT,
-                         "%.200s: the file is truncated, damaged or altered; delete it", path);
+        return fault_set(
+            f, STATUS_FAULT,
+            "%.200s is truncated, damaged or altered; delete it, and start its shard again", path);
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return unreadable(path, f);
@@ -276,20 +280,21 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
 {
     if (strcmp(b->verb, w->verb) != 0 || strcmp(b->request, w->request) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%.120s: the batch belongs to another request (%.20s %.100s); use a "
-                         "separate folder for each request",
+                         "%.120s: the batch belongs to another request (%.20s %.100s); give --into "
+                         "a separate folder for each request",
                          path, b->verb, b->request);
     if (strcmp(b->build, w->build) != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%.120s: the batch was computed by another build (%.60s; this build is "
-                         "%.60s); use that build, or a new folder",
-                         path, b->build, w->build);
-    if (strcmp(b->plan, w->plan) != 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "%.120s: the batch belongs to the same request, but was computed with other reference "
-            "values, scenes or formulations; use those, or a new folder",
-            path);
+            "%.120s: the batch was computed by another build of beamwork (%.60s; this build is "
+            "%.60s); use that build, or compute all batches again with --into a new folder",
+            path, b->build, w->build);
+    if (strcmp(b->plan, w->plan) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%.120s: the batch was computed with other reference values, scene files "
+                         "or formulations of the same names; use those, or compute all batches "
+                         "again with --into a new folder",
+                         path);
     return STATUS_OK;
 }
 
@@ -320,10 +325,10 @@ static status compute(const batch_worker *c, int batch, double *seconds, fault *
     const double begun = clock_wall_seconds(), worked = processor_seconds();
     FILE *to = open_memstream(&bytes, &size);
     if (to == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a batch");
+        return fault_memory(f, "a batch");
     status outcome = w->run(w->context, batch, to, &content, f);
     if (fclose(to) != 0 && outcome == STATUS_OK)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for a batch");
+        outcome = fault_memory(f, "a batch");
     *seconds = clock_wall_seconds() - begun;
     if (outcome == STATUS_OK) {
         snprintf(label.verb, sizeof label.verb, "%s", w->verb);

@@ -14,8 +14,10 @@ static status path_of(const char *folder, const char *name, char out[PATH_MAX], 
 {
     return snprintf(out, PATH_MAX, "%s/%s", folder, name) < PATH_MAX
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: the name is too long; give a shorter one",
-                           folder);
+               : fault_set(
+                     f, STATUS_FAULT,
+                     "%.200s: the path of the batch is too long; move the folder to a shorter path",
+                     folder);
 }
 
 status batch_store_path(const batch_store *s, int batch, char out[PATH_MAX], fault *f)
@@ -34,7 +36,7 @@ static status add_kind(batch_store *s, const machine *of, fault *f)
         }
     batch_store_kind *more = realloc(s->kind, ((size_t)s->kinds + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the kinds of machines");
+        return fault_memory(f, "the kinds of machines");
     s->kind = more;
     s->kind[s->kinds++] = (batch_store_kind){*of, 1};
     return STATUS_OK;
@@ -50,10 +52,10 @@ static status hold_against(batch_store *s, const batch_label *label, const char 
     batch_label_free(&first);
     s->twice++;
     return same ? STATUS_OK
-                : fault_set(
-                      f, STATUS_REFUSED,
-                      "%.130s and %.130s contain different results of the same batch; remove one",
-                      other, path);
+                : fault_set(f, STATUS_REFUSED,
+                            "%.130s and %.130s contain different results of the same batch; remove "
+                            "the wrong one",
+                            other, path);
 }
 
 static status add(batch_store *s, const batch_label *label, const char *path, int folder, fault *f)
@@ -84,7 +86,7 @@ static status look_inside(batch_store *s, const shard_work *w, const char *path,
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK && (label.batch != batch || label.batches != w->batches))
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%.200s contains batch %d of %d, which differs from the name of the "
+                            "%.200s contains batch %d of %d, which does not match the name of the "
                             "file; remove the file",
                             path, label.batch + 1, label.batches);
     if (outcome == STATUS_OK)
@@ -123,8 +125,10 @@ static status look_at(batch_store *s, const shard_work *w, const char *name, int
 
 static status unreadable(const char *folder, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: the folder cannot be read (%s)", folder,
-                     strerror(errno));
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: the folder cannot be read (%s); give an existing, readable folder "
+                     "that contains batches",
+                     folder, strerror(errno));
 }
 
 static status look_through(batch_store *s, const shard_work *w, int folder, const char *wanted,
@@ -148,7 +152,7 @@ status batch_store_read(const shard_work *w, const char *const folder[], int fol
     batch_stem(w, out->stem);
     out->where = malloc(((size_t)w->batches + 1) * sizeof *out->where);
     if (out->where == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+        return fault_memory(f, "batches");
     for (int i = 0; i < w->batches; i++)
         out->where[i] = -1;
     for (int i = 0; i < folders; i++)
@@ -252,8 +256,8 @@ status batch_store_first(const char *folder, batch_label *out, fault *f)
     free(entry);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%.200s: the folder contains no batches; run verify or sweep with "
-                             "--shard K/N and --into this folder",
+                             "%.200s contains no batch that can be read; give a folder that was "
+                             "written with --into",
                              folder);
 }
 
@@ -351,9 +355,10 @@ static status take(const shard_work *w, const batch_store *s, int batch, fault *
     batch_label_free(&label);
     status outcome = w->take(w->context, batch, from, f);
     if (outcome == STATUS_OK && ftell(from) != end)
-        outcome = fault_set(
-            f, STATUS_FAULT,
-            "%.200s: the size of the file does not match its contents; remove the file", path);
+        outcome = fault_set(f, STATUS_FAULT,
+                            "%.200s: the size of the file does not match its contents; remove it, "
+                            "and start its shard again",
+                            path);
     fclose(from);
     return outcome;
 }

@@ -104,7 +104,7 @@ static status write_table(FILE *to, const bench *b, fault *f)
     evaluation shown = {.verdicts = 0};
     shown.verdict = reach_verdicts(&b->sweep, &b->truths, &shown.verdicts);
     if (shown.verdict == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+        return fault_memory(f, "verdicts");
     table_timing(to, &b->sweep, &shown, b->named);
     free(shown.verdict);
     return STATUS_OK;
@@ -292,7 +292,7 @@ static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
     for (int i = 0; i < s->seriess; i++) {
         s->series[i].timing = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].timing);
         if (s->series[i].timing == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for times");
+            return fault_memory(f, "times");
     }
     for (int p = 0; p < s->points; p++) {
         snprintf(what, sizeof what, "%s %s", s->point[p].type->name, s->point[p].text);

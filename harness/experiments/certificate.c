@@ -212,7 +212,7 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     *out = NULL;
     if (all == MAP_FAILED)
-        return fault_set(f, STATUS_FAULT, "out of memory for the element reports");
+        return fault_memory(f, "the element reports");
     *out = all;
     for (int i = 0; i < r->count; i++)
         all[i].chosen = r->chosen[i];

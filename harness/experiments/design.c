@@ -20,14 +20,14 @@ static status count_grid(design *d, fault *f)
         const sweep_axis *a = &d->axis[i];
         if (a->count == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: the number of parts is missing; write %s=%g..%g/N%s, or "
-                             "add --design sobol --points N",
+                             "--vary %s: the number of parts is missing; write, for example, "
+                             "%s=%g..%g/4%s, or add --design sobol --points 100",
                              a->of->name, a->of->name, a->from, a->to,
                              a->kind == AXIS_LOG ? ":log" : "");
         if (d->points > DESIGN_MOST_POINTS / a->count)
             return fault_set(f, STATUS_REFUSED,
-                             "the grid has more than %d points; give fewer parts or values, or "
-                             "ranges without parts and --design sobol --points N",
+                             "the grid has more than %d points; give --vary fewer parts, or give "
+                             "ranges without parts, such as A..B, and --design sobol --points 100",
                              DESIGN_MOST_POINTS);
         d->points *= a->count;
     }
@@ -40,10 +40,11 @@ static status check_box(const design *d, fault *f)
                                              : (int)gsl_qrng_halton->max_dimension;
     for (int i = 0; i < d->axes; i++)
         if (d->axis[i].count > 0 && d->axis[i].value == NULL)
-            return fault_set(f, STATUS_REFUSED,
-                             "--vary %s: '/%d' applies only to a grid; remove it, and give the "
-                             "number of points with --points",
-                             d->axis[i].of->name, d->axis[i].count - 1);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "--vary %s: '/%d' applies only to a grid, and --design gives another kind of "
+                "points; remove it, and give the number of points, such as --points 100",
+                d->axis[i].of->name, d->axis[i].count - 1);
     if (d->kind != DESIGN_RANDOM && d->axes > most)
         return fault_set(f, STATUS_REFUSED,
                          "--design %s supports at most %d parameters; use --design random",
@@ -102,12 +103,12 @@ static status set_marks(design *d, fault *f)
     double share[CASE_MAX_PARAMETERS];
     d->mark = calloc((size_t)wanted, sizeof *d->mark);
     if (d->mark == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the points of a sweep");
+        return fault_memory(f, "the points of a sweep");
     for (; d->marks < wanted; d->marks++) {
         design_mark *here = &d->mark[d->marks];
         *here = d->marks == 0 ? begin(d) : copy(here - 1);
         if (!is_there(here))
-            return fault_set(f, STATUS_FAULT, "out of memory for the points of a sweep");
+            return fault_memory(f, "the points of a sweep");
         for (long i = 0; d->marks > 0 && i < d->stride; i++)
             next(d, here, share);
     }
@@ -117,9 +118,10 @@ static status set_marks(design *d, fault *f)
 static status fill_box(design *d, long points, fault *f)
 {
     if (points < 1 || points > DESIGN_MOST_POINTS)
-        return fault_set(f, STATUS_REFUSED,
-                         "--design %s: the number of points is missing; add --points N",
-                         design_name(d->kind));
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--design %s: the number of points is missing; add, for example, --points 100",
+            design_name(d->kind));
     d->points = points;
     TRY(check_box(d, f));
     return set_marks(d, f);
@@ -157,7 +159,7 @@ static status box_points(const design *d, long first, long count, double out[], 
     double share[CASE_MAX_PARAMETERS];
     design_mark at = copy(&d->mark[first / d->stride]);
     if (!is_there(&at))
-        return fault_set(f, STATUS_FAULT, "out of memory for the points of a sweep");
+        return fault_memory(f, "the points of a sweep");
     for (long i = 0; i < first % d->stride; i++)
         next(d, &at, share);
     for (long i = 0; i < count; i++) {
@@ -236,7 +238,7 @@ static status add_value(sweep_axis *a, double value, fault *f)
         }
     double *more = realloc(a->value, (size_t)(a->count + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the values of --vary");
+        return fault_memory(f, "the values of --vary");
     a->value = more;
     a->value[a->count++] = value;
     return STATUS_OK;
@@ -252,8 +254,8 @@ static status read_list(const case_type *type, const char *text, sweep_axis *a, 
         char one[2 * TEXT];
         if (length == 0 || length >= TEXT - 1)
             return fault_set(f, STATUS_REFUSED,
-                             "--vary %s=%.60s: a value is missing or too long; write %s=A..B/N or "
-                             "%s=A,B,C",
+                             "--vary %s=%.60s: a value is missing or too long; write a range such "
+                             "as %s=1..2/4, or values such as %s=1,2,4",
                              a->of->name, text, a->of->name, a->of->name);
         snprintf(one, sizeof one, "%.60s=%.*s", a->of->name, length, at);
         TRY(assignment_set(&list, one, values, NULL, NULL, f));
@@ -272,9 +274,10 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
         return STATUS_OK;
     char unit[PARAMETER_UNIT_WORDS];
     parameter_unit_words(a->of, unit);
-    return fault_set(f, STATUS_REFUSED,
-                     "--vary %s: '%.60s' is not a number; write %s=A..B/N with numbers A and B%s",
-                     a->of->name, one, a->of->name, unit);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "--vary %s: '%.60s' is not a number; write a range such as %s=1..2/4, with numbers%s",
+        a->of->name, one, a->of->name, unit);
 }
 
 static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
@@ -284,10 +287,10 @@ static status read_parts(const char *text, size_t length, sweep_axis *a, fault *
     errno = 0;
     const long parts = strtol(one, &end, 10);
     if (end == one || *end != '\0' || errno != 0 || parts < 1 || parts >= AXIS_MOST_VALUES)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--vary %s: '%.40s' is not a valid number of parts; give a whole number from 1 to %d",
-            a->of->name, one, AXIS_MOST_VALUES - 1);
+        return fault_set(f, STATUS_REFUSED,
+                         "--vary %s: '%.40s' is not a valid number of parts; give a whole number "
+                         "from 1 to %d, such as 4",
+                         a->of->name, one, AXIS_MOST_VALUES - 1);
     a->count = (int)parts + 1;
     return STATUS_OK;
 }
@@ -301,7 +304,8 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->of->name, a->from, a->to);
     if (a->from == a->to)
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: the range from %g to %g is a single value; set it with --set",
+                         "--vary %s: the range from %g to %g is a single value; replace the option "
+                         "by --set with this value, or give two different ends",
                          a->of->name, a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
@@ -316,15 +320,16 @@ static status read_range(const case_type *type, const char *text, const char *do
     const size_t rest = colon != NULL ? (size_t)(colon - to) : strlen(to);
     const size_t end = strcspn(to, "/:");
     if (a->of->choices != NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "--vary %s: the values are words, which have no range; list some of the "
+                         "words %s, separated by commas",
+                         a->of->name, a->of->choices);
+    if (colon != NULL && strcmp(colon, ":log") != 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "--vary %s: the values are words, which have no range; list some of the words %s",
-            a->of->name, a->of->choices);
-    if (colon != NULL && strcmp(colon, ":log") != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: the kind of steps '%.40s' is unknown; write %s=A..B/N for "
-                         "equal steps, or %s=A..B/N:log for equal ratios",
-                         a->of->name, colon, a->of->name, a->of->name);
+            "--vary %s: the kind of steps '%.40s' is unknown; remove it for equal steps, as in "
+            "%s=1..2/4, or write :log for equal ratios, as in %s=1..2/4:log",
+            a->of->name, colon, a->of->name, a->of->name);
     a->kind = colon != NULL ? AXIS_LOG : AXIS_LINEAR;
     TRY(read_end(a, text, (size_t)(dots - text), &a->from, f));
     TRY(read_end(a, to, end, &a->to, f));
@@ -350,8 +355,8 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
     *out = (sweep_axis){.index = -1};
     if (length == 0 || length > 60 || text[length] == '\0' || text[length + 1] == '\0')
         return fault_set(f, STATUS_REFUSED,
-                         "--vary '%.60s': write NAME=A..B/N or NAME=A,B,C; 'beamwork list %.170s' "
-                         "shows the names",
+                         "--vary '%.60s' is not valid; write a range such as NAME=1..2/4, or "
+                         "values such as NAME=1,2,4; 'beamwork list %.170s' shows the names",
                          text, shown);
     snprintf(name, sizeof name, "%.*s=*", (int)length, text);
     TRY(assignment_set(&list, name, values, any, &out->index, f));

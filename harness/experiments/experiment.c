@@ -10,7 +10,7 @@ static status gathered(const experiment_type *e, const record_type *type, const 
     if (!out->bad)
         return STATUS_OK;
     gather_free(out);
-    return fault_set(f, STATUS_FAULT, "out of memory for results");
+    return fault_memory(f, "results");
 }
 
 static status put_about(const experiment_type *e, const void *found, record_file *r, hid_t at,

@@ -121,7 +121,7 @@ static status read_rows(table_columns *r, extreme_sweep *out)
         return columns_broken(r, "outcome");
     out->deviation = calloc((size_t)r->rows + 1, sizeof *out->deviation);
     if (out->deviation == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for known deviations");
+        return fault_memory(r->f, "known deviations");
     out->deviations = r->rows;
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++)
         TRY(columns_read(r, &field[i], out->deviation, sizeof *out->deviation));

@@ -63,7 +63,7 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
     double *value = malloc((size_t)(before + 1) * sizeof *value);
     if (value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the stations of a motion");
+        return fault_memory(f, "the stations of a motion");
     for (int i = 0; i < before; i++)
         value[i] = (i + 1) * spacing;
     value[before] = end;
@@ -135,7 +135,7 @@ static status add_run(integrators *p, const integrators_plan_request *q,
 {
     integrators_run *more = realloc(p->run, (size_t)(p->runs + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for motions");
+        return fault_memory(f, "motions");
     p->run = more;
     integrators_group *g = &p->group[p->groups - 1];
     integrators_run *r = &p->run[p->runs];
@@ -166,7 +166,7 @@ static status add_reference(integrators *p, integrators_group *g, const integrat
         scene *s = &p->sweep.point[p->sweep.points - 1].scene;
         read_exactly(s, g->analysis);
         if (s->out_of_memory)
-            return fault_set(f, STATUS_FAULT, "out of memory for a motion");
+            return fault_memory(f, "a motion");
     }
     return STATUS_OK;
 }
@@ -209,7 +209,7 @@ status integrators_plan_add(integrators *p, const integrators_plan_request *q, f
 {
     integrators_group *more = realloc(p->group, (size_t)(p->groups + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for motions");
+        return fault_memory(f, "motions");
     p->group = more;
     integrators_group *g = &p->group[p->groups];
     *g = (integrators_group){.type = q->type,
@@ -250,8 +250,8 @@ static const struct {
 
 static status refuse(const char *name, fault *f)
 {
-    return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " INTEGRATORS_METHODS,
-                     name);
+    return fault_set(f, STATUS_REFUSED,
+                     "--integrator '%.31s' is unknown; give one of " INTEGRATORS_METHODS, name);
 }
 
 /* Reads "KEY=NUMBER" of a scheme; an empty text leaves *value unchanged. Returns 1, or 0 if the
@@ -324,8 +324,8 @@ static integrators_list integrators_list_divided(double first, double ratio, int
 static status list_refuse(const char *option, const char *text, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "--%s '%.60s': give at most %d positive numbers, such as 0.1,0.05, or "
-                     "0.1..0.0125",
+                     "--%s '%.60s' is not valid; give at most %d positive numbers, such as "
+                     "0.1,0.05, or a range that is halved, such as 0.1..0.0125",
                      option, text, INTEGRATORS_LIST_MOST);
 }
 

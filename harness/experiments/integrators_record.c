@@ -380,7 +380,8 @@ static status plan_axis(const motion_request *r, motions *m, const integrators_p
     double value[CASE_MAX_PARAMETERS];
     if (a->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: the number of parts is missing; write %s=A..B/N or %s=A,B,C",
+                         "--vary %s: the number of parts is missing; write a range such as "
+                         "%s=1..2/4, or values such as %s=1,2,4",
                          a->of->name, a->of->name, a->of->name);
     memcpy(value, r->parameter, sizeof value);
     for (int i = 0; i < a->count; i++) {

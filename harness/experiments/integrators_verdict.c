@@ -265,9 +265,8 @@ status integrators_verdict_plan(const char *path, integrators *p, integrators_ve
     all->count = all->table.rows;
     all->verdict = calloc((size_t)all->count + 1, sizeof *all->verdict);
     planned *row = calloc((size_t)all->count + 1, sizeof *row);
-    const status outcome = all->verdict != NULL && row != NULL
-                               ? plan_rows(path, p, all, row, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    const status outcome = all->verdict != NULL && row != NULL ? plan_rows(path, p, all, row, f)
+                                                               : fault_memory(f, "verdicts");
     free(row);
     return outcome;
 }
@@ -319,7 +318,7 @@ static status errors_of(const integrators *p, const integrators_group *g, integr
               known = cell->solve.quantities == own && reference->solve.quantities >= own;
     r->values = malloc((size_t)(own + 1) * sizeof *r->values);
     if (r->values == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for errors");
+        return fault_memory(f, "errors");
     for (int i = 0; i < own; i++)
         r->values[i] = known ? integrators_distance_of(&s->quantity[i], &cell->solve.quantity[i],
                                                        &reference->solve.quantity[i])

@@ -38,8 +38,8 @@ static status read_axes(parameter_ranges *r, fault *f)
     parameters_shown(r->request.type, shown);
     if (r->request.varies == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' "
-                         "shows the parameters",
+                         "no parameter varies; give, for example, --vary NAME=1..2/4; 'beamwork "
+                         "list %.170s' shows the parameters",
                          shown);
     for (int i = 0; i < r->request.varies; i++)
         TRY(add_axis(r, r->request.vary[i], f));
@@ -58,10 +58,10 @@ static status cut(parameter_ranges *r, fault *f)
     r->points_in_batch = fits < 1 ? 1 : (long)fmin(fits, (double)most);
     const long batches = (r->design.points + r->points_in_batch - 1) / r->points_in_batch;
     if (batches > MOST_BATCHES)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%ld points of about %.2g s each are too many for a sweep; request fewer points",
-            r->design.points, r->point_cost);
+        return fault_set(f, STATUS_REFUSED,
+                         "%ld points of about %.2g s each are too many for a sweep; give --vary "
+                         "fewer parts or values, or --points a smaller number",
+                         r->design.points, r->point_cost);
     r->batches = (int)batches;
     return STATUS_OK;
 }
@@ -129,8 +129,8 @@ static status plan(const parameter_ranges *r, int batch, sweep *s, fault *f)
     long first;
     const int count = ranges_batch(r, batch, &first), axes = r->design.axes;
     double *at = malloc((size_t)count * (size_t)axes * sizeof *at), value[CASE_MAX_PARAMETERS];
-    status outcome = at != NULL ? design_points(&r->design, first, count, at, f)
-                                : fault_set(f, STATUS_FAULT, "out of memory for points");
+    status outcome =
+        at != NULL ? design_points(&r->design, first, count, at, f) : fault_memory(f, "points");
     for (int i = 0; i < count && outcome == STATUS_OK; i++) {
         ranges_points_values(r, at + (size_t)i * (size_t)axes, value);
         outcome = plan_add(s, r->request.type, value, NULL, r->mesh, r->meshes, f);
@@ -293,8 +293,7 @@ static status run(void *context, int batch, FILE *to, digest *content, fault *f)
     rows w;
     status outcome = ranges_solve(own->of, batch, &w, f);
     if (outcome == STATUS_OK && rows_write(to, &w) != 0)
-        outcome =
-            fault_set(f, STATUS_FAULT, "out of memory for the results of batch %d", batch + 1);
+        outcome = fault_memory(f, "the results of batch %d", batch + 1);
     if (outcome == STATUS_OK)
         add_content(content, &w);
     rows_free(&w);
@@ -309,7 +308,8 @@ static status keep(ranges_work *own, int batch, FILE *from, rows *w, fault *f)
     TRY(rows_alloc(&shape, points, w, f));
     if (rows_read(from, w) != 0)
         return fault_set(f, STATUS_FAULT,
-                         "the results of batch %d cannot be read; compute the batch again",
+                         "the results of batch %d cannot be read; start the sweep again, which "
+                         "computes missing batches",
                          batch + 1);
     add_content(&own->content, w);
     if (own->tally != NULL)
@@ -335,7 +335,7 @@ status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f)
     *out = (ranges_work){.of = r, .content = digest_begin()};
     out->cost = calloc((size_t)r->batches + 1, sizeof *out->cost);
     if (out->cost == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+        return fault_memory(f, "batches");
     for (int i = 0; i < r->batches; i++) {
         long first;
         out->cost[i] = ranges_batch(r, i, &first) * r->point_cost;
@@ -418,8 +418,8 @@ static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, co
 {
     const int axes = r->design.axes;
     double *at = malloc((size_t)w->points * (size_t)axes * sizeof *at);
-    const status outcome = at != NULL ? design_points(&r->design, first, w->points, at, f)
-                                      : fault_set(f, STATUS_FAULT, "out of memory for points");
+    const status outcome =
+        at != NULL ? design_points(&r->design, first, w->points, at, f) : fault_memory(f, "points");
     for (int i = 0; i < w->points && outcome == STATUS_OK; i++)
         put_point(to, r, w, at + (size_t)i * (size_t)axes, i);
     free(at);

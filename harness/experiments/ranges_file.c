@@ -145,8 +145,8 @@ static void put_columns(ranges_file *file)
 static status failed(const ranges_file *file, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: the sweep could not be written, because the disk or the memory is "
-                     "full; free some space",
+                     "%.200s could not be written, because the disk or the memory is full; free "
+                     "disk space or memory, and run the same command again",
                      file->path);
 }
 
@@ -197,7 +197,7 @@ static status add_points(ranges_file *file, long first, int points, const file_c
     const int axes = file->of->design.axes;
     double *at = malloc((size_t)points * (size_t)axes * sizeof *at);
     status outcome = at != NULL ? design_points(&file->of->design, first, points, at, f)
-                                : fault_set(f, STATUS_FAULT, "out of memory for points");
+                                : fault_memory(f, "points");
     for (int i = 0; i < points * axes && outcome == STATUS_OK; i++)
         at[i] = frame_motion_of(&file->of->axis[i % axes], at[i]);
     if (outcome == STATUS_OK)
@@ -254,7 +254,7 @@ static status text_of(const parameter_ranges *r, long index, char **text, fault 
     const status built = cell_scene(type, value, NULL, &s, &why);
     *text = write_scene_text(built == STATUS_OK ? &s : NULL, &head);
     scene_free(&s);
-    return *text != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a scene");
+    return *text != NULL ? STATUS_OK : fault_memory(f, "a scene");
 }
 
 /* Returns the name of the scene if the point occurs earlier in the list; otherwise NULL. */

@@ -18,7 +18,8 @@ static status beside(const char *path, const char *ending, char out[PATH_MAX], f
                                                                            : (int)strlen(path);
     return snprintf(out, PATH_MAX, "%.*s%s", stem, path, ending) < PATH_MAX
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long; give a shorter one",
+               : fault_set(f, STATUS_REFUSED,
+                           "%.200s: the name is too long; give -o a shorter one, such as sweep.h5",
                            path);
 }
 
@@ -101,7 +102,8 @@ static status hold_batches(const char *folder, fault *f)
                              : -1;
         if (held < 0)
             return fault_set(f, STATUS_FAULT,
-                             "%.200s: the folder cannot be created (%s); give -o another location",
+                             "%.200s: the folder cannot be created (%s); give -o a path in an "
+                             "existing, writable folder",
                              folder, strerror(errno));
         if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             close(held);
@@ -126,10 +128,10 @@ static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
     snprintf(folder, PATH_MAX, "%s/beamwork-sweep-XXXXXX", temporary != NULL ? temporary : "/tmp");
     return mkdtemp(folder) != NULL
                ? STATUS_OK
-               : fault_set(
-                     f, STATUS_FAULT,
-                     "%.200s: the folder cannot be created (%s); set TMPDIR to a writable folder",
-                     folder, strerror(errno));
+               : fault_set(f, STATUS_FAULT,
+                           "%.200s: the folder cannot be created (%s); set the environment "
+                           "variable TMPDIR to a writable folder, such as /var/tmp",
+                           folder, strerror(errno));
 }
 
 static status plan(const void *requested, void *found, fault *f)

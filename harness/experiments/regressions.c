@@ -21,11 +21,15 @@ static status read_back(const sweep *s, const evaluation *j, stored_results *out
     const environment e = environment_now(1);
     if (snprintf(path, sizeof path, "%s/beamwork-XXXXXX", folder != NULL ? folder : "/tmp") >=
         (int)sizeof path)
-        return fault_set(f, STATUS_FAULT, "TMPDIR: the name is too long; give a shorter one");
+        return fault_set(f, STATUS_FAULT,
+                         "the folder in the environment variable TMPDIR has too long a name; set a "
+                         "shorter one, such as TMPDIR=/var/tmp");
     const int file = mkstemp(path);
     if (file < 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: cannot be written; set TMPDIR to a writable folder", path);
+                         "%.200s: a temporary file cannot be created; set the environment variable "
+                         "TMPDIR to a writable folder, such as /var/tmp",
+                         path);
     close(file);
     status outcome = store_write(path, NULL, s, j, &e, f);
     if (outcome == STATUS_OK)
@@ -70,15 +74,15 @@ static status compare(const stored_results *former, const char *name, const stor
     comparison c;
     FILE *to = open_memstream(&text, &size);
     if (to == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a comparison");
+        return fault_memory(f, "a comparison");
     comparison_run(to, former, now, &limits, NULL, &c);
-    status outcome =
-        fclose(to) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a comparison");
+    status outcome = fclose(to) == 0 ? STATUS_OK : fault_memory(f, "a comparison");
     if (outcome == STATUS_OK && c.pairs == 0)
-        outcome = fault_set(f, STATUS_REFUSED,
-                            "--not-worse-than %.120s: the file contains no results of this run; "
-                            "give the results of a run with the same formulations and cases",
-                            name);
+        outcome =
+            fault_set(f, STATUS_REFUSED,
+                      "--not-worse-than %.120s: the file contains no results of this run; give the "
+                      "results of a run with the same cases (-k) and formulations (-f)",
+                      name);
     if (outcome == STATUS_OK)
         outcome = add_lines(text, j, f);
     free(text);

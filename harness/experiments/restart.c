@@ -19,15 +19,15 @@ status restart_possible(const scene *s, fault *f)
     for (int i = 0; i < s->loads; i++)
         if (s->load[i].feedback.node != SCENE_NONE && s->load[i].feedback.integral != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s (feedback): --save-state does not store the integral of the "
-                             "error; compute the whole motion in one run",
+                             "%s (feedback): the integral of the error cannot be stored; remove "
+                             "--save-state and --restart, and compute the whole motion in one run",
                              scene_called(s, SCENE_LOADS, i).text);
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "--save-state and --restart require a motion, but the scene has none; remove "
-                     "these options, or add a motion analysis");
+                     "these options, or add an analysis with the key 'motion'");
 }
 
 void restart_free(restart *r)
@@ -42,11 +42,10 @@ void restart_free(restart *r)
 static status check_chosen(const restart *r, const solution_request *of, fault *f)
 {
     if (strcmp(r->formulation, of->formulation.key) != 0 || r->elements != of->elements)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "the --restart file was written with -f %s -n %d, not with -f %s -n %d; continue a "
-            "motion with the formulation and the number of elements with which it began",
-            r->formulation, r->elements, of->formulation.key, of->elements);
+        return fault_set(f, STATUS_REFUSED,
+                         "the --restart file was written with -f %s -n %d, not with -f %s -n %d; "
+                         "give the formulation and the number of elements of the file",
+                         r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
         return fault_set(f, STATUS_REFUSED,
                          "the --restart file was written by a run %s --all-dofs; %s --all-dofs",
@@ -70,8 +69,8 @@ static status drop_stations(outcome_end *e, scene *s, fault *f)
         }
     if (!(last > e->time + near))
         return fault_set(f, STATUS_REFUSED,
-                         "the motion continues from %.10g s, but its last station is at %.10g s; "
-                         "add a later station",
+                         "the --restart file ends at %.10g s, but the last station of the motion "
+                         "is at %.10g s; add a later station to the scene",
                          e->time, last);
     m->path.stations = kept;
     return STATUS_OK;
@@ -85,8 +84,8 @@ status restart_begin(restart *r, solution_request *of, scene *s, fault *f)
         const int k = r->end[i].analysis;
         if (k < 0 || k >= s->analyses || s->analysis[k].kind != SCENE_MOTION)
             return fault_set(f, STATUS_REFUSED,
-                             "--restart: %s is not a motion of the scene; write the file again "
-                             "with --save-state",
+                             "--restart: %s is not a motion of the scene; write the file again by "
+                             "running the first part of the motion with --save-state",
                              scene_called(s, SCENE_ANALYSES, k).text);
         TRY(drop_stations(&r->end[i], s, f));
     }
@@ -243,7 +242,8 @@ static status damaged(const source *from, fault *f)
 {
     return fault_set(
         f, STATUS_FAULT,
-        "%.200s: the file was not written by --save-state of this version; write it again",
+        "%.200s was not written by --save-state of this version of beamwork; run the first part of "
+        "the motion again with --save-state, for example --save-state state.h5",
         from->path);
 }
 
@@ -294,7 +294,7 @@ static status read_all(const source *from, restart *out, fault *f)
         return damaged(from, f);
     if (out->end == NULL) {
         out->ends = 0;
-        return fault_set(f, STATUS_FAULT, "out of memory for the final state of a motion");
+        return fault_memory(f, "the final state of a motion");
     }
     for (int i = 0; i < out->ends; i++)
         TRY(read_end(from, i, &out->end[i], f));
@@ -338,7 +338,7 @@ static status restart_text(const scene *s, char **out, fault *f)
     }
     free(plain.analysis);
     if (*out == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the text of a scene");
+        return fault_memory(f, "the text of a scene");
     if (**out != '\0')
         return STATUS_OK;
     free(*out);
@@ -370,11 +370,11 @@ static status differ(const char *former, const char *now, fault *f)
             while (same < n && same < k && a[same] == b[same])
                 same++;
             same = same > BEFORE ? same - BEFORE : 0;
-            return fault_set(f, STATUS_REFUSED,
-                             "the --restart file belongs to another scene: there '%.*s', here "
-                             "'%.*s'; give the scene of the file",
-                             excerpt_length(n - same), a + same, excerpt_length(k - same),
-                             b + same);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "the --restart file belongs to another scene: there '%.*s', here '%.*s'; give the "
+                "scene and the parameters with which the file was written",
+                excerpt_length(n - same), a + same, excerpt_length(k - same), b + same);
         }
         former = a + n + (a[n] == '\n');
         now = b + k + (b[k] == '\n');

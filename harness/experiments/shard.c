@@ -23,7 +23,9 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
         return STATUS_OK;
     }
     return fault_set(f, STATUS_REFUSED,
-                     "--shard '%.40s': give K/N for shard K of N shards, such as 1/4", text);
+                     "--shard '%.40s' is not valid; give K/N for shard K of N shards, such as 1/4 "
+                     "for the first of four",
+                     text);
 }
 
 typedef struct shard_process {
@@ -80,7 +82,8 @@ static void print_lost(const worker_pool *c, int batch, int how)
     child_ended(how, 0, 0, words, sizeof words);
     if (c->todo.request->messages != NULL)
         fprintf(c->todo.request->messages,
-                "beamwork: batch %d is lost, because its process %s; start the shard again\n",
+                "beamwork: batch %d is lost, because its process %s; start the shard again with "
+                "the same command\n",
                 batch + 1, WIFSIGNALED(how) ? words : "ended before the batch was complete");
 }
 
@@ -175,8 +178,10 @@ static status make_folder(const char *into, fault *f)
 {
     if (mkdir(into, 0777) == 0 || errno == EEXIST)
         return STATUS_OK;
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s); choose another folder", into,
-                     strerror(errno));
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: the folder cannot be created (%s); give --into a path in an "
+                     "existing, writable folder",
+                     into, strerror(errno));
 }
 
 /* Lists the missing batches of the shard in decreasing order of cost. mine[batches]: 1 for the
@@ -211,7 +216,7 @@ static status run(worker_pool *c, int shard[], char mine[], fault *f)
     const shard_work *w = c->todo.w;
     if (c->todo.list == NULL || shard == NULL || mine == NULL || c->todo.queue == MAP_FAILED ||
         batches_assign(w->batches, w->cost, c->todo.request->count, shard) != 0)
-        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+        return fault_memory(f, "batches");
     for (int i = 0; i < w->batches; i++)
         mine[i] = shard[i] == c->todo.request->index;
     TRY(make_folder(c->todo.request->into, f));

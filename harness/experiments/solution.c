@@ -90,7 +90,8 @@ static status report_change(const solution_request *r, const solution_choice *wh
         return out->status;
     out->status = STATUS_NOT_CONVERGED;
     snprintf(out->reason, sizeof out->reason,
-             "no convergence on %.200s; %.3g %% was requested; use -n %d, or a larger --error",
+             "no convergence on %.200s; %.3g %% was requested; use more elements, such as -n %d, "
+             "or a larger --error",
              why->elements, 100 * requested, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }
@@ -201,7 +202,7 @@ static status borrow(const truths *all, const sweep_point *p, known_truths *out,
     out->borrowed = 1;
     out->stored.row = calloc((size_t)all->rows + 1, sizeof *out->stored.row);
     if (out->stored.row == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for reference values");
+        return fault_memory(f, "reference values");
     for (int i = 0; i < all->rows; i++)
         if (truth_holds(&all->row[i], p->type, p->parameter))
             out->stored.row[out->stored.rows++] = all->row[i];
@@ -260,7 +261,7 @@ static status add_row(const sweep_point *p, const derived_value *v, truths *t, f
                    row->unit != NULL && row->kind != NULL && row->model != NULL &&
                    row->convention != NULL && row->source != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for reference values");
+               : fault_memory(f, "reference values");
 }
 
 static status ask_scene(const char *script, const sweep_point *p, derived_value **value, int *count,
@@ -293,9 +294,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     if (outcome != STATUS_OK)
         return STATUS_OK;
     out->derived.row = calloc((size_t)count + 1, sizeof *out->derived.row);
-    status added = out->derived.row != NULL
-                       ? STATUS_OK
-                       : fault_set(f, STATUS_FAULT, "out of memory for reference values");
+    status added = out->derived.row != NULL ? STATUS_OK : fault_memory(f, "reference values");
     for (int i = 0; i < count && added == STATUS_OK; i++)
         added = add_row(p, &value[i], &out->derived, f);
     free(value);
@@ -353,8 +352,8 @@ static status run(const void *requested, void *found, fault *f)
         TRY(import_store_read(r->imported[i], 0, &c->sweep, &left, f));
         if (left.series == left.all)
             return fault_set(f, STATUS_REFUSED,
-                             "%.150s: the file has no results of this case at these parameters, "
-                             "but results of %s; give that case and its parameters",
+                             "%.150s contains no results of this case at these parameters, but "
+                             "results of %s; give that case and its parameters (--set)",
                              r->imported[i], left.first);
     }
     return verification_cells(&r->cells, &c->truths, &c->sweep, f);
@@ -440,14 +439,15 @@ status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f
         const int length = (int)strcspn(at, ",");
         char *end;
         if (*count == most)
-            return fault_set(f, STATUS_REFUSED, "-n lists too many meshes; give at most %d", most);
+            return fault_set(f, STATUS_REFUSED, "-n lists too many meshes; give at most %d numbers",
+                             most);
         errno = 0;
         const long value = strtol(at, &end, 10);
         if (end == at || end != at + length || errno != 0 || value < 1 || value > MESHES_FINEST)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "the number of elements '%.*s' is invalid; give a whole number from 1 to %d",
-                length < 40 ? length : 40, at, MESHES_FINEST);
+            return fault_set(f, STATUS_REFUSED,
+                             "-n: the number of elements '%.*s' is not valid; give a whole number "
+                             "from 1 to %d, such as 4",
+                             length < 40 ? length : 40, at, MESHES_FINEST);
         mesh[(*count)++] = (int)value;
         at = end;
         if (*at == '\0')

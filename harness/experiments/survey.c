@@ -35,9 +35,10 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
         if (strcmp(r->quantity[i].name, q->name) == 0)
             return STATUS_OK;
     if (r->quantities == RANGES_QUANTITIES)
-        return fault_set(f, STATUS_REFUSED,
-                         "there are more than %d quantities; select some with -k",
-                         RANGES_QUANTITIES);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "there are more than %d quantities; select some of them with -k, such as -k NAME",
+            RANGES_QUANTITIES);
     ranges_quantity *out = &r->quantity[r->quantities++];
     snprintf(out->name, sizeof out->name, "%s", q->name);
     snprintf(out->unit, sizeof out->unit, "%s", q->unit);
@@ -90,8 +91,8 @@ static status keep_running(parameter_ranges *r, const survey_selected *w, fault 
     return w->select != NULL
                ? narrow_to_nothing(w->select, r->request.type, f)
                : fault_set(f, STATUS_REFUSED,
-                           "%.60s has no single-valued quantity that a formulation can compute; "
-                           "choose another case",
+                           "%.60s has no quantity with a single value that a formulation can "
+                           "compute; choose another case, such as elastica",
                            r->request.type->name);
 }
 
@@ -228,7 +229,7 @@ static status list_formulations(const extreme_request *request, extreme_sweep *o
     out->formulation = calloc((size_t)out->formulations + 1, sizeof *out->formulation);
     out->count = calloc((size_t)out->formulations + 1, sizeof *out->count);
     if (out->formulation == NULL || out->count == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a list of formulations");
+        return fault_memory(f, "a list of formulations");
     for (int i = 0; i < out->formulations; i++) {
         if (request->formulations > 0)
             out->formulation[i] = request->formulation[i];
@@ -255,7 +256,7 @@ static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int
     extreme_outcome *more =
         realloc(out->outcome, (size_t)(out->outcomes + EXTREME_MAX_QUANTITIES) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for outcomes");
+        return fault_memory(f, "outcomes");
     out->outcome = more;
     for (int q = 0; q < EXTREME_MAX_QUANTITIES && e->quantity[q].name != NULL; q++) {
         if (quantity_index(&out->first.point[last].scene, e->quantity[q].name) < 0)

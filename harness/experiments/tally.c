@@ -42,7 +42,7 @@ status tally_alloc(const parameter_ranges *r, tally *out, fault *f)
     return out->series != NULL && out->map != NULL && out->failed != NULL && out->ran != NULL &&
                    out->cost != NULL && out->seconds != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for the results of a sweep");
+               : fault_memory(f, "the results of a sweep");
 }
 
 void tally_free(tally *t)
@@ -281,7 +281,7 @@ status tally_add(tally *t, long first, const rows *w, fault *f)
     const int axes = t->of->design.axes;
     double *at = malloc((size_t)w->points * (size_t)axes * sizeof *at);
     const status outcome = at != NULL ? design_points(&t->of->design, first, w->points, at, f)
-                                      : fault_set(f, STATUS_FAULT, "out of memory for points");
+                                      : fault_memory(f, "points");
     for (int i = 0; i < w->points && outcome == STATUS_OK; i++)
         count_point(t, w, i, first + i, at + (size_t)i * (size_t)axes);
     free(at);
@@ -316,7 +316,7 @@ status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f)
     out->size = lay_out(out);
     out->first = calloc(1, out->size + sizeof(double));
     if (out->first == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the results of a sweep");
+        return fault_memory(f, "the results of a sweep");
     lay_out(out);
     return STATUS_OK;
 }

@@ -39,7 +39,7 @@ static status begin(test_element *s, fault *f)
         return STATUS_OK;
     s->history = calloc((size_t)count, sizeof *s->history);
     if (s->history == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a history");
+        return fault_memory(f, "a history");
     s->values = count;
     at_rest(s, x);
     if (s->type.begin != NULL)

@@ -329,9 +329,9 @@ static status evaluate(const void *requested, void *found, fault *f)
         TRY(evaluate_all(&r->cells, r->whole, &v->truths, &v->sweep, &v->evaluation, f));
     if (r->imported_must_pass && !imported_was_evaluated(&v->sweep, &v->evaluation))
         return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: no imported value has a verdict; select imported "
-                         "quantities that have reference values (-k), and state 'model: beam' in "
-                         "the file if its program computes beams");
+                         "--imported-must-pass: no imported value has a verdict; make -k select "
+                         "the program and a quantity with a reference value, and if the program "
+                         "computes beams, write '# model: beam' in the file of 'beamwork import'");
     if (r->former != NULL && v->sweep.unfinished == 0)
         TRY(regressions_find(&v->former, r->former, &v->sweep, &v->evaluation, f));
     return overview_make(&v->sweep, &v->evaluation, &v->overview, f);

@@ -204,7 +204,10 @@ static status check_history(const element_type *given, const double options[], f
                       "and thus objective; add 'history', or remove LIMIT_NOT_OBJECTIVE",
                       f);
     if (count == 0 && given->limits & LIMIT_PATH_DEPENDENT)
-        return refuse(given, "LIMIT_PATH_DEPENDENT requires 'history'", f);
+        return refuse(given,
+                      "LIMIT_PATH_DEPENDENT requires 'history'; add 'history', or remove "
+                      "LIMIT_PATH_DEPENDENT",
+                      f);
     if (absolute_is(given, options) && element_nodes(given, options) > ABSOLUTE_NODES)
         return refuse_count(given, "nodes, with 'force' and 'history',",
                             element_nodes(given, options), 2, ABSOLUTE_NODES, f);
@@ -218,8 +221,10 @@ static status check_history(const element_type *given, const double options[], f
             given, "'history' requires 'commit', which computes the history values of a state", f);
     if (count > 0 && (given->along != NULL || given->unstressed != NULL ||
                       given->equations_many != NULL || given->line != NULL))
-        return refuse(
-            given, "with 'history', remove 'along', 'unstressed', 'equations_many' and 'line'", f);
+        return refuse(given,
+                      "an element with 'history' cannot have 'along', 'unstressed', "
+                      "'equations_many' and 'line'; remove them",
+                      f);
     return STATUS_OK;
 }
 
@@ -261,16 +266,15 @@ static status check_scalars(const element_type *given, const double options[], f
                          given->name, all, ELEMENT_MAX_COORDINATES);
     if (count > 0 && given->force != NULL && element_history(given, options) > 0)
         return refuse(given,
-                      "with additional unknowns, a history requires 'strain' and 'stress' instead "
-                      "of 'force'",
+                      "with additional unknowns, a history requires 'strain' and 'stress'; give "
+                      "these instead of 'force'",
                       f);
     if (count > 0 && (given->along != NULL || given->unstressed != NULL ||
                       given->equations_many != NULL || given->line != NULL))
-        return refuse(
-            given,
-            "with additional unknowns, remove 'along', 'unstressed', 'equations_many' and "
-            "'line'",
-            f);
+        return refuse(given,
+                      "an element with additional unknowns cannot have 'along', 'unstressed', "
+                      "'equations_many' and 'line'; remove them",
+                      f);
     return STATUS_OK;
 }
 
@@ -281,11 +285,17 @@ static status check(const element_type *given, const double options[], fault *f)
         return refuse(
             given, "'prepare' is missing; add it, because it passes the section to the element", f);
     if ((given->force != NULL) == (given->strain != NULL || given->stress != NULL))
-        return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
+        return refuse(given,
+                      "an element is defined by either 'strain' and 'stress' or 'force'; give "
+                      "exactly one of the two",
+                      f);
     if (given->force == NULL && (given->strain == NULL || given->stress == NULL))
-        return refuse(given, "give 'strain' and 'stress' together", f);
+        return refuse(given, "'strain' or 'stress' is missing; give both", f);
     if (given->force != NULL && (given->along != NULL || given->tension != NULL))
-        return refuse(given, "'along' and 'tension' require 'strain' and 'stress'", f);
+        return refuse(given,
+                      "'along' and 'tension' require 'strain' and 'stress'; give these instead of "
+                      "'force', or remove 'along' and 'tension'",
+                      f);
     if (given->force != NULL && given->damping != NULL)
         return refuse(given,
                       "'damping' is a matrix for the strains that the element computes; give "

@@ -75,18 +75,20 @@ status formulations_add(const element_type *t, const char *from, fault *f)
     if (is_reserved(t->name))
         return fault_set(f, STATUS_REFUSED,
                          "'%s' is a word of the command line and cannot be the name of a "
-                         "formulation; use another name",
+                         "formulation; use another name, such as my_beam",
                          t->name);
     if (formulations_named(t->name, strlen(t->name)) != NULL)
-        return fault_set(f, STATUS_REFUSED, "formulation %s already exists; use another name",
-                         t->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "formulation %s already exists; give your element another name, or load it only once",
+            t->name);
     parameter_defaults(t->options, options);
     TRY(adapters_complete(t, options, &whole, f));
     while (formulations_loaded[count] != NULL)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)
         return fault_set(f, STATUS_REFUSED,
-                         "at most %d formulations can be loaded; give fewer with --element",
+                         "at most %d formulations can be loaded; give fewer --element options",
                          FORMULATIONS_MOST_LOADED);
     formulations_loaded[count] = t;
     loaded_from[count] = from;
@@ -222,7 +224,8 @@ status formulation_parse(const char *text, formulation *out, fault *f)
 
 static status too_many(int most, fault *f)
 {
-    return fault_set(f, STATUS_REFUSED, "too many formulations; give at most %d", most);
+    return fault_set(f, STATUS_REFUSED, "too many formulations are given; give at most %d with -f",
+                     most);
 }
 
 static status add_all(int most, formulation list[], int *count, fault *f)
@@ -418,8 +421,8 @@ status select_begin(const char *expression, select_words *words, fault *f)
     memset(words, 0, sizeof *words);
     if (expression != NULL && select_matches(expression, "") < 0)
         return fault_set(f, STATUS_REFUSED,
-                         "selection '%.100s' is malformed; write words joined by and, or, not, "
-                         "with brackets around words that belong together",
+                         "selection '%.100s' is malformed; join words by and, or, not and "
+                         "parentheses, as in 'beamw and not (elastica or hexapod)'",
                          expression);
     for (int i = 0; registered(NULL, i) != NULL; i++)
         select_meet(expression, registered(NULL, i), words);

@@ -70,7 +70,8 @@ static const char *copy(handshake_memory *memory, const char *text)
 
 static status refuse(const handshake_reading *r, const char *key, const char *what)
 {
-    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' in its first line: %.120s",
+    return fault_set(r->f, STATUS_REFUSED,
+                     "%.100s: the key '%.40s' of its first line is missing or not valid; %.120s",
                      r->program_name, key, what);
 }
 
@@ -115,9 +116,10 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
     for (; known != NULL && known->word != NULL && at < sizeof words; known++)
         at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at > 0 ? ", " : "",
                                known->word);
-    return fault_set(r->f, STATUS_REFUSED,
-                     "%.60s: '%s' in its first line contains the unknown word '%.40s'; give %s",
-                     r->program_name, key, word != NULL ? word : "(not text)", words);
+    return fault_set(
+        r->f, STATUS_REFUSED,
+        "%.60s: the key '%s' of its first line contains the unknown word '%.40s'; give %s",
+        r->program_name, key, word != NULL ? word : "(not text)", words);
 }
 
 /* Combines the bits of a list of words. known NULL: the words of feature.h. */
@@ -216,11 +218,13 @@ static status inertia_of(const handshake_reading *r, handshake *out)
     if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
         return refuse(r, "inertia", "give vibration or motion, or remove it");
     if (!(out->type.offers & FEATURE_MASS))
-        return refuse(r, "inertia", "this requires mass; add mass to 'offers'");
+        return refuse(r, "inertia",
+                      "add mass to 'offers', because the key requires it, or remove the key");
     out->inertia = 1;
     out->type.spreads = strcmp(word, "motion") == 0;
     if (out->type.spreads && out->constants.nodes != 2)
-        return refuse(r, "inertia", "motion is only for elements with two nodes; give vibration");
+        return refuse(r, "inertia",
+                      "give vibration, because motion is only for elements with two nodes");
     return STATUS_OK;
 }
 
@@ -249,7 +253,8 @@ static status terms_of(const handshake_reading *r, handshake *out)
     TRY(flag_of(r, "line", &out->line));
     if (out->damping && out->whole)
         return refuse(r, "damping",
-                      "this requires strains; give e, or e,J or e,J,H as 'gives', or remove it");
+                      "give strains (e, or e,J, or e,J,H as 'gives'), because the key requires "
+                      "them, or remove it");
     return STATUS_OK;
 }
 
@@ -263,7 +268,7 @@ static status only_known_keys(const handshake_reading *r)
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
             known |= strcmp(keys[i], key) == 0;
         if (!known)
-            return refuse(r, key, "the protocol has no such key; remove it");
+            return refuse(r, key, "remove it, because the protocol has no such key");
     }
     return STATUS_OK;
 }
@@ -305,8 +310,9 @@ static status read_all(const handshake_reading *r, handshake *out)
     if (!out->whole)
         TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
     else if (json_object_get(r->said, "strains") != NULL)
-        return refuse(r, "strains",
-                      "formulations that provide whole elements do not have this key; remove it");
+        return refuse(
+            r, "strains",
+            "remove it, because formulations that provide whole elements have no strains");
     TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
     TRY(number_of(r, "scalars", 1, ELEMENT_MAX_SCALARS, 0, &out->constants.scalars));
     TRY(orders_of(r, out->constants.order));
@@ -327,8 +333,8 @@ status handshake_read(const char *program_name, const char *line, size_t length,
         r.memory == NULL ? fault_set(f, STATUS_FAULT, "out of memory")
         : !json_is_object(r.said)
             ? fault_set(f, STATUS_REFUSED,
-                        "%.100s: began with '%.60s', which is not a line of JSON as in "
-                        "harness/formulations/protocol.md; print other text to standard error",
+                        "%.100s: its output began with '%.60s' instead of a line of JSON "
+                        "(harness/formulations/protocol.md); print other text to standard error",
                         program_name, line)
             : read_all(&r, out);
     json_decref(r.said);
@@ -344,7 +350,8 @@ static const char *const options_keys[] = {"name", "summary", "default", "choice
 
 static status options_refuse(const handshake_reading *r, const char *name, const char *what)
 {
-    return fault_set(r->f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s",
+    return fault_set(r->f, STATUS_REFUSED,
+                     "%.100s: option '%.40s' of its first line is not valid; %.120s",
                      r->program_name, name, what);
 }
 

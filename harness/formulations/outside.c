@@ -76,6 +76,16 @@ static const element_type *find_type(void *file)
     return returned != NULL ? returned() : NULL;
 }
 
+static status cannot_load(fault *f)
+{
+    const char *why = dlerror();
+    return fault_set(f, STATUS_REFUSED, "--element: %.180s; %s", why,
+                     strstr(why, "undefined symbol") != NULL
+                         ? "link the object or library that defines the symbol"
+                         : "give the path of an existing shared object with a '/', such as "
+                           "./mine.so, or a command that begins with 'exec:'");
+}
+
 status plugin_load(const char *path, const element_type **out, fault *f)
 {
     static const char exec[] = "exec:";
@@ -83,16 +93,14 @@ status plugin_load(const char *path, const element_type **out, fault *f)
         return process_load(path + sizeof exec - 1, out, f);
     void *file = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (file == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "cannot load %.200s; give the path of a shared object with a '/', such as "
-                         "./mine.so, or a command that begins with 'exec:'",
-                         dlerror());
+        return cannot_load(f);
     const element_type *loaded = find_type(file);
     if (loaded == NULL)
-        return refuse(path,
-                      "no symbol 'beamwork_element'; define 'const element_type beamwork_element', "
-                      "or a function beamwork_element_type() that returns the formulation",
-                      f);
+        return refuse(
+            path,
+            "it does not define a formulation; define 'const element_type beamwork_element', or a "
+            "function beamwork_element_type() that returns the formulation",
+            f);
     return copy(path, loaded, out, f);
 }
 
@@ -302,7 +310,8 @@ static status process_load(const char *command, const element_type **out, fault 
         count++;
     if (count == PROCESS_MOST)
         return fault_set(f, STATUS_REFUSED,
-                         "at most %d formulations can run in their own processes; give fewer",
+                         "at most %d formulations can run in their own processes; give fewer "
+                         "--element options with exec:",
                          PROCESS_MOST);
     TRY(check_machine(command, f));
     process *p = calloc(1, sizeof *p);

@@ -161,9 +161,10 @@ status assignment_set(const assignment_list *l, const char *text, double value[]
     char name[LONGEST];
     const size_t length = strcspn(text, "=");
     if (length == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s '%.60s' of %s: write NAME=VALUE; separate several with '%c'", l->what,
-                         text, l->owner, l->separator);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s '%.60s' of %s has no value; write NAME=VALUE, and separate several with '%c'",
+            l->what, text, l->owner, l->separator);
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const parameter_type *p;
     int i = 0;
@@ -172,8 +173,8 @@ status assignment_set(const assignment_list *l, const char *text, double value[]
     if (p == NULL)
         return unknown(l, name, f);
     if (text[length] == '\0')
-        return fault_set(f, STATUS_REFUSED, "%s %s of %s: no value; write %s=VALUE", l->what, name,
-                         l->owner, name);
+        return fault_set(f, STATUS_REFUSED, "%s %s of %s has no value; write %s=VALUE", l->what,
+                         name, l->owner, name);
     if (index != NULL)
         *index = i;
     if (any != NULL && strcmp(text + length + 1, "*") == 0) {
@@ -194,8 +195,8 @@ status assignment_parse(const assignment_list *l, const char *text, double value
         int index = 0;
         if (length >= sizeof one)
             return fault_set(f, STATUS_REFUSED,
-                             "%s '%.40s...' of %s is longer than %d characters; write NAME=VALUE; "
-                             "separate several with '%c'",
+                             "%s '%.40s...' of %s is longer than %d characters; write NAME=VALUE, "
+                             "and separate several with '%c'",
                              l->what, at, l->owner, LONGEST - 1, l->separator);
         snprintf(one, sizeof one, "%.*s", (int)length, at);
         TRY(assignment_set(l, one, value, any, &index, f));

@@ -61,7 +61,10 @@ static int pipe_above(int ends[2])
 
 static status no_process(const char *command, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
+    return fault_set(
+        f, STATUS_FAULT,
+        "exec: '%.100s' cannot be started (%s); close other programs, and run the command again",
+        command, strerror(errno));
 }
 
 static status child_start(char *const words[], child *out, fault *f)
@@ -96,8 +99,10 @@ static status child_start(char *const words[], child *out, fault *f)
     child_end(out, 1);
     if (made < 0)
         return no_process(words[0], f);
-    return fault_set(f, STATUS_REFUSED, "exec: cannot run '%.100s': %s", words[0],
-                     strerror(number));
+    return fault_set(f, STATUS_REFUSED,
+                     "exec: '%.100s' cannot be run (%s); give an existing, executable program, as "
+                     "in 'exec:python3 my_beam.py'",
+                     words[0], strerror(number));
 }
 
 static int child_runs(const child *c)
@@ -289,9 +294,10 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];
     if (what == CHILD_LATE) {
-        snprintf(why, sizeof why,
-                 "its process did not answer within %d s%s; make it answer in this time", c->limit,
-                 when);
+        snprintf(
+            why, sizeof why,
+            "its process did not answer within %d s%s; make it faster, or increase --time-limit",
+            c->limit, when);
     } else if (what == CHILD_WROTE) {
         snprintf(why, sizeof why,
                  "its process wrote more than an answer to standard output%s; print other text to "
@@ -299,7 +305,9 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
                  when);
     } else {
         how_it_ended(child_end(&c->process, 0), how, sizeof how);
-        snprintf(why, sizeof why, "its process %s%s", how, when);
+        snprintf(why, sizeof why,
+                 "its process %s%s; correct the program (its error messages are on standard error)",
+                 how, when);
     }
     return channel_break(c, why, f);
 }
@@ -417,10 +425,9 @@ static status rest_of(channel *c, enum channel_request what, size_t least, size_
     if (*count != least && *count != most) {
         const int damped = what == CHANNEL_PREPARE && least == most && most > 0;
         snprintf(why, sizeof why, "an answer has %zu bytes instead of %zu%s", *count, most,
-                 damped
-                     ? ": with 'damping' true, the answer to prepare is C, then V; with 'only V', "
-                       "it is V"
-                     : "");
+                 damped ? "; with 'damping' true, answer prepare with C, then V; with 'only V', "
+                          "answer with V"
+                        : "; write the arrays that harness/formulations/protocol.md requires");
         return channel_break(c, why, f);
     }
     if (had > CHANNEL_ANSWER + *count)

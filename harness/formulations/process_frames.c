@@ -52,7 +52,9 @@ static status frame_begin(const frame_question *q, size_t each, char **to, fault
     channel_begin(frame_channel(q));
     *to = channel_add(frame_channel(q), (size_t)q->count * (sizeof(int64_t) + each));
     if (*to == NULL)
-        return channel_break(frame_channel(q), "out of memory for a mesh", f);
+        return channel_break(
+            frame_channel(q),
+            "out of memory for a mesh; close other programs, or use fewer elements", f);
     for (int i = 0; i < q->count; i++) {
         const int64_t kind = q->data[i]->kind % PROCESS_KINDS;
         frame_put(to, &kind, sizeof kind);

@@ -299,10 +299,9 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     for (int i = 0; i < spec->walls; i++) {
         if (axis_of(spec, i) < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "wall %d (0: the first wall) is oblique, but only walls along y and z "
-                             "of the section can "
-                             "be written as solids; change the wall",
-                             i);
+                             "wall number %d of the section is oblique, but only walls along its y "
+                             "and z axes can be written as solids; change the ends of the wall",
+                             i + 1);
         strips[i] = strip_of(spec, i);
     }
     for (int axis = 0; axis < 2; axis++) {
@@ -333,13 +332,14 @@ static status face_of(const section_spec *spec, const section *constants, face *
     memset(out, 0, sizeof *out);
     if (is_overridden(spec))
         return fault_set(f, STATUS_REFUSED,
-                         "the constants of a solid follow from its dimensions; remove 'given'");
+                         "the stiffnesses of a solid follow from its dimensions; remove 'given' "
+                         "from the section");
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)
         return fault_set(f, STATUS_REFUSED,
                          "only rectangles and straight walls can be written as solids; give the "
-                         "member such a section");
+                         "member a section with 'rectangle' or 'walls'");
     fill_rectangle(spec, out);
     return STATUS_OK;
 }

@@ -126,14 +126,15 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
 {
     unit_measure a, b;
     if (!read_unit(from, &a))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "unit '%.40s' is unknown; write a product of units such as N, kN, N/mm, N mm, mm/N, "
-            "rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
-            from);
+        return fault_set(f, STATUS_REFUSED,
+                         "unit '%.40s' is unknown; write a product of units such as N, kN, N/mm, N "
+                         "mm, mm/N, rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
+                         from);
     if (!read_unit(to, &b) || memcmp(a.power, b.power, sizeof a.power) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "unit '%.40s' cannot be converted to '%.40s'; correct the unit", from, to);
+                         "unit '%.40s' cannot be converted to '%.40s'; give a unit of the same "
+                         "kind, or correct the name of the quantity",
+                         from, to);
     *factor = strcmp(from, to) == 0 ? 1 : a.factor / b.factor;
     return STATUS_OK;
 }

@@ -23,11 +23,13 @@ status deck_check(const deck_request *r, fault *f)
 {
     if (r->elements < 1 || r->elements > DECK_MOST_ELEMENTS)
         return fault_set(f, STATUS_REFUSED,
-                         "%d elements along a member are not possible; give 1 to %d with -n",
+                         "%d elements along a member are not possible; give -n a number from 1 to "
+                         "%d, such as 20",
                          r->elements, DECK_MOST_ELEMENTS);
     if (r->scene->plane != SCENE_SPACE)
         return fault_set(f, STATUS_REFUSED,
-                         "scene %.60s is confined to a plane, but solids are not; remove plane: %s",
+                         "scene %.60s is confined to a plane, but solids are not; remove plane: %s "
+                         "from the scene",
                          r->scene->name, scene_plane_name(r->scene));
     TRY(export_support_check(r->scene, f));
     return export_support_requests(r->scene, f);

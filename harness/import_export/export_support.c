@@ -20,8 +20,8 @@ static status check_section(const scene *s, int member, fault *f)
     const section_spec *profile = &s->section[s->member[member].section];
     if (scene_member_tapers(&s->member[member]))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the section changes along the member, which cannot be written as "
-                         "solids; give the member one section",
+                         "%s: a section that changes along the member cannot be written as solids; "
+                         "give the member one section",
                          scene_called(s, SCENE_MEMBERS, member).text);
     brick mesh;
     fault why = {""};
@@ -32,8 +32,8 @@ static status check_section(const scene *s, int member, fault *f)
     if (poisson > -1 && poisson < 0.5)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: E/(2 G) - 1 = %g is impossible for a solid; give moduli with Poisson's "
-                     "ratio between -1 and 0.5",
+                     "%s: Poisson's ratio E/(2 G) - 1 = %g is impossible for a solid; give moduli "
+                     "with a ratio between -1 and 0.5",
                      scene_called(s, SCENE_MEMBERS, member).text, poisson);
 }
 
@@ -51,15 +51,16 @@ static status check_member(const scene *s, int member, fault *f)
     const int end[2] = {m->p, m->q};
     if (!is_zero(m->curvature) || !is_zero(m->strain) || m->bow[0] != 0 || m->bow[1] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the member is curved or strained before it is loaded, which cannot "
-                         "be written as solids; remove the initial curvature and strain",
+                         "%s: initial curvature, strain and bow cannot be written as solids; "
+                         "remove them from the member",
                          scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 2; i++)
         if (ends_at_node(s, end[i]) > 1)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: corners of members cannot be written as solids; make the node a "
-                             "rigid body with a node for each end (part_of)",
-                             scene_called(s, SCENE_NODES, end[i]).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: a node at which several members end cannot be written as solids; make the "
+                "node a rigid body, and end each member at a node of its own with part_of",
+                scene_called(s, SCENE_NODES, end[i]).text);
     if (m->release[0].count + m->release[1].count > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: released ends cannot be written as solids; remove the release, and "
@@ -71,13 +72,13 @@ static status check_member(const scene *s, int member, fault *f)
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: ends eccentric to their nodes cannot be written as solids; put a "
-                         "node at the end (part_of)",
+                         "%s: eccentric ends of a member cannot be written as solids; remove the "
+                         "eccentricity, and end the member at a node of its own with part_of",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the ends of the member can warp, but the rigid faces of solids "
-                         "cannot; write warping: fixed",
+                         "%s: the ends of the member can warp, but the rigid end faces of solids "
+                         "cannot; write warping: fixed in the member",
                          scene_called(s, SCENE_MEMBERS, member).text);
     return check_section(s, member, f);
 }
@@ -112,28 +113,28 @@ static status check_node(const scene *s, int node, fault *f)
     if (n->rotation != SCENE_ROTATION_SPATIAL)
         return fault_set(f, STATUS_REFUSED,
                          "%s: sequences of rotations and forks cannot be written as solids; fix "
-                         "the rotations, or use a rotation vector",
+                         "all rotations of the node, or prescribe a rotation vector",
                          scene_called(s, SCENE_NODES, node).text);
     if (!large || held >= 2 || (held == 0 && driven == 0))
         return STATUS_OK;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "%s: rigid faces rotate by a rotation vector; fix none, two or all rotations of the node",
-        scene_called(s, SCENE_NODES, node).text);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: the rigid end faces of solids rotate by a rotation vector, of which one "
+                     "component alone cannot be fixed; fix none, two or all rotations of the node",
+                     scene_called(s, SCENE_NODES, node).text);
 }
 
 static status check_load(const scene *s, int load, fault *f)
 {
     const scene_load *l = &s->load[load];
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: weight and loads on members cannot be written as solids; apply the load to nodes",
-            scene_called(s, SCENE_LOADS, load).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: weight and loads along members cannot be written as solids; apply "
+                         "forces and moments to nodes",
+                         scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
         return fault_set(f, STATUS_REFUSED,
                          "%s: only dead loads at nodes, along fixed axes, can be written as "
-                         "solids; change the load",
+                         "solids; change the load, or remove it",
                          scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
         return fault_set(
@@ -143,8 +144,8 @@ static status check_load(const scene *s, int load, fault *f)
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
         held_rotations(&s->node[l->where]) < 2)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a moment on a node that can rotate about any axis differs from that "
-                         "of a rotation vector; fix two rotations of the node",
+                         "%s: a moment on a node that can rotate about all axes differs from the "
+                         "moment of a rotation vector; fix two rotations of the node",
                          scene_called(s, SCENE_LOADS, load).text);
     return STATUS_OK;
 }
@@ -159,10 +160,10 @@ static status check_analysis(const scene *s, int analysis, fault *f)
                          scene_called(s, SCENE_ANALYSES, analysis).text,
                          scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != export_is_static(s) || scene_rotates(a)))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: an input deck supports only one static path, in axes at rest; remove this path",
-            scene_called(s, SCENE_ANALYSES, analysis).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: an input deck supports only one load path, along axes that do not "
+                         "rotate; remove this load path",
+                         scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
                          "%s: no solid ends at the node; request the value of the moving body",
@@ -173,8 +174,9 @@ static status check_analysis(const scene *s, int analysis, fault *f)
 status export_support_check(const scene *s, fault *f)
 {
     if (s->members == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "the scene has no members, so there is no solid; add a member");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the scene has no members, so there is nothing to write as solids; add a member");
     if (s->springs > 0)
         return fault_set(
             f, STATUS_REFUSED,
@@ -196,7 +198,7 @@ status export_support_check(const scene *s, fault *f)
         if (s->driver[i].condition_driver != SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
                              "motion '%s' is determined by a condition, which input decks cannot "
-                             "express; give its values",
+                             "express; give the motion by its values ('path' and 'value')",
                              s->driver[i].name);
     for (int i = 0; i < s->loads; i++)
         TRY(check_load(s, i, f));
@@ -222,7 +224,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     for (int i = 0; i < 3; i++)
         if (n->angle[i] != SCENE_HELD)
             return refuse(
-                q, "a moment on a rotating node is not printed for solids; remove the quantity", f);
+                q, "the moment on a rotating node is not printed for solids; remove the quantity",
+                f);
     return STATUS_OK;
 }
 
@@ -239,7 +242,7 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
         (q->reduction == SCENE_AT && q->at != path->value[path->stations - 1]))
         return refuse(q,
                       "about a loaded state, only the value at the last station can be written; "
-                      "end the path at the requested station",
+                      "end the load path at the requested station",
                       f);
     for (const scene_quantity *other = s->quantity; other < q; other++)
         if ((other->what.kind == SCENE_COMPLIANCE_ENTRY ||
@@ -261,8 +264,8 @@ static status check_entry(const scene *s, const scene_quantity *q, fault *f)
     if (s->analysis[q->analysis].follows != SCENE_NONE &&
         (e->row >= SCENE_RX || e->column >= SCENE_RX))
         return refuse(q,
-                      "entries for rotations about a loaded state are not supported for solids; "
-                      "remove the quantity",
+                      "stiffnesses and compliances of rotations about a loaded state are not "
+                      "supported for solids; remove the quantity",
                       f);
     return check_last(s, q, f);
 }
@@ -271,15 +274,18 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
 {
     if (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN)
         return refuse(q,
-                      "the maximum and minimum over a path are not supported for solids; request a "
-                      "value at a station",
+                      "the maximum and the minimum over a path are not supported for solids; "
+                      "request the value at a station with 'at'",
                       f);
     if (q->envelope != SCENE_ENVELOPE_NONE)
-        return refuse(
-            q, "an envelope is not supported for solids; request each combination that may govern",
-            f);
+        return refuse(q,
+                      "an envelope is not supported for solids; request each combination that may "
+                      "govern as a separate quantity",
+                      f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
-        return refuse(q, "a curve over another quantity is not supported for solids; remove 'x'",
+        return refuse(q,
+                      "a curve over another quantity is not supported for solids; remove 'x' from "
+                      "the quantity",
                       f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
@@ -298,7 +304,8 @@ status export_support_requests(const scene *s, fault *f)
 {
     if (s->quantities == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "the scene has no quantities to request from solids; add one");
+                         "the scene has no quantities to request from solids; add one, such as a "
+                         "displacement of a node");
     for (int i = 0; i < s->quantities; i++)
         TRY(check_quantity(s, &s->quantity[i], f));
     return STATUS_OK;

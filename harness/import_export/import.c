@@ -42,8 +42,10 @@ static const case_type *scene_case(import_block *b, const char *name, int line)
             return scene_file_case(set->scene[i]);
     char *copy = set->scenes < IMPORT_SCENES ? strdup(path) : NULL;
     if (copy == NULL) {
-        mistakes_add(b->m, line, 1, "more than %d scene files; import them in parts",
-                     IMPORT_SCENES);
+        mistakes_add(
+            b->m, line, 1,
+            "more than %d scene files are named; import them in several runs of 'beamwork import'",
+            IMPORT_SCENES);
         return NULL;
     }
     fault f = {""};
@@ -129,8 +131,8 @@ static void check_convention(const import_block *b, const import_header *h)
     const char *own_axis = scene_moments_name((scene_moments)moments);
     if (strcmp(own_axis, h->convention) != 0)
         mistakes_add(b->m, h->convention_line, 1,
-                     "convention '%.40s': the moments of the case are %s; give the parameter that "
-                     "changes the convention, or convert the values",
+                     "convention '%.40s': the moments of the case are %s; set the parameter of the "
+                     "case that selects the convention, or convert the values",
                      h->convention, own_axis);
 }
 
@@ -138,19 +140,29 @@ static void name_series(import_block *b, const import_header *h, int line)
 {
     imported *to = b->found;
     if (h->program[0] == '\0')
-        mistakes_add(b->m, line, 1, "the program is not named; write '# program: NAME, ELEMENT'");
+        mistakes_add(b->m, line, 1,
+                     "the program is not named; add a line such as '# program: CalculiX, C3D20R' "
+                     "before the values");
     else if (strlen(h->program) >= FORMULATION_KEY || strchr(h->program, '/') != NULL)
-        mistakes_add(b->m, h->program_line, 1, "program: give at most %d bytes without '/'",
+        mistakes_add(b->m, h->program_line, 1,
+                     "the name of the program contains '/' or more than %d characters; give a "
+                     "shorter name without '/', such as CalculiX",
                      FORMULATION_KEY - 1);
     else if (formulation_find(h->program) != NULL)
         mistakes_add(b->m, h->program_line, 1,
-                     "program '%.60s' is a formulation of this program; use another name",
+                     "program '%.60s' has the name of a formulation of beamwork; use another name, "
+                     "such as the name of the program that computed the values",
                      h->program);
     if (strlen(h->model) >= IMPORTED_WORD || strlen(h->convention) >= IMPORTED_WORD)
         mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
-                     "model and convention must be words of at most %d bytes", IMPORTED_WORD - 1);
+                     "the words after 'model' and 'convention' have more than %d characters; give "
+                     "shorter words, such as '# model: solid'",
+                     IMPORTED_WORD - 1);
     if (strlen(h->version) >= IMPORTED_WORD)
-        mistakes_add(b->m, h->version_line, 1, "version: give at most %d bytes", IMPORTED_WORD - 1);
+        mistakes_add(b->m, h->version_line, 1,
+                     "the version has more than %d characters; give a shorter one, such as '# "
+                     "version: 2.20'",
+                     IMPORTED_WORD - 1);
     snprintf(to->version, sizeof to->version, "%.*s", IMPORTED_WORD - 1, h->version);
     snprintf(to->program, sizeof to->program, "%.*s", FORMULATION_KEY - 1, h->program);
     snprintf(to->file, sizeof to->file, "%s", b->path);
@@ -171,7 +183,9 @@ import_block import_block_open(import_set *set, const import_header *h, const ch
     }
     name_series(&b, h, line);
     if (h->of[0] == '\0')
-        mistakes_add(m, line, 2, "the case is not named; write '# case: NAME; PARAMETER=VALUE'");
+        mistakes_add(m, line, 2,
+                     "the case is not named; add a line such as '# case: elastica; load=2' or '# "
+                     "case: leaf.yaml' before the values");
     else
         b.point = find_point(&b, h->of, line);
     check_convention(&b, h);
@@ -211,14 +225,17 @@ static void check_row(const import_block *b, const imported_row *row, const scen
 {
     const int is_curve = q->reduction == SCENE_CURVE;
     if (is_curve && !isfinite(row->x))
-        mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve; give x, its %s [%s]", q->name,
-                     q->x.name, q->x.unit);
+        mistakes_add(
+            b->m, line_of(b, row), 2,
+            "'%s' is a curve, so each value requires its position x; give the %s [%s] in column x",
+            q->name, q->x.name, q->x.unit);
     if (!is_curve && !isnan(row->x))
-        mistakes_add(b->m, line_of(b, row), 2, "'%s' is not a curve; leave x empty", q->name);
+        mistakes_add(b->m, line_of(b, row), 2,
+                     "'%s' is a single value, not a curve; leave column x empty", q->name);
     if (has_moments(q) && b->found->convention[0] == '\0')
         mistakes_add(b->m, line_of(b, row), 3,
-                     "'%s' depends on the convention for moments on rotating nodes; write '# "
-                     "convention: spatial|semitangential|symmetrised'",
+                     "'%s' depends on the convention for moments on rotating nodes; add '# "
+                     "convention: spatial', or semitangential or symmetrised instead of spatial",
                      q->name);
 }
 
@@ -229,7 +246,9 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     const scene_quantity *own_axis = axes_quantity(&b->axes, scene_of(b), q, &sign);
     if (own_axis == NULL) {
         mistakes_add(b->m, line_of(b, row), 1,
-                     "the case has no quantity '%s' in these axes; correct '# axes'", q->name);
+                     "the case has no quantity '%s' in these axes; correct the line '# axes', "
+                     "which is x=x y=y z=z for equal axes",
+                     q->name);
         return 0;
     }
     if (conversion_factor(row->unit, own_axis->unit, &row->factor, &f) != STATUS_OK) {
@@ -251,9 +270,10 @@ static void check_again(const import_block *b)
         const imported_row *one = &all->row[i - 1], *next = &all->row[i];
         if (one->elements == next->elements && strcmp(one->quantity, next->quantity) == 0 &&
             (one->x == next->x || (isnan(one->x) && isnan(next->x))))
-            mistakes_add(b->m, line_of(b, next), 5,
-                         "'%s' with n = %d is given again in line %d; remove one of them",
-                         next->quantity, next->elements, one->line);
+            mistakes_add(
+                b->m, line_of(b, next), 5,
+                "'%s' with %d elements is given again in line %d; remove one of the two lines",
+                next->quantity, next->elements, one->line);
     }
 }
 
@@ -331,7 +351,9 @@ static status find_meshes(series *one, const imported *found, fault *f)
         if (one->meshes > 0 && one->mesh[one->meshes - 1] == found->row[i].elements)
             continue;
         if (one->meshes == SERIES_MAX_MESHES)
-            return fault_set(f, STATUS_REFUSED, "%.60s: more than %d meshes; remove some",
+            return fault_set(f, STATUS_REFUSED,
+                             "%.60s: more than %d numbers of elements are given at one parameter "
+                             "point; remove some of them",
                              found->program, SERIES_MAX_MESHES);
         one->mesh[one->meshes++] = found->row[i].elements;
     }

@@ -51,7 +51,7 @@ static const char *const header_names[] = {"beamwork-import", "program",    "ver
 static void take_text(char to[IMPORT_TEXT], int *line, const file_reader *r, const char *value)
 {
     if (strlen(value) >= IMPORT_TEXT)
-        mistakes_add(r->m, r->line, 1, "the text is too long; use at most %d bytes",
+        mistakes_add(r->m, r->line, 1, "the text is too long; use at most %d characters",
                      IMPORT_TEXT - 1);
     snprintf(to, IMPORT_TEXT, "%s", value);
     *line = r->line;
@@ -85,8 +85,8 @@ static void take_header(file_reader *r, const char *key, const char *value)
         take_text(h->convention, &h->convention_line, r, value);
     else if (!axes_parse(value, &h->axes))
         mistakes_add(r->m, r->line, 1,
-                     "axes '%.60s' are not a signed permutation; write theirs = beamwork's, such "
-                     "as x=x y=-z z=y",
+                     "axes '%.60s' are not valid; give the program's axis = beamwork's axis for "
+                     "all three axes, such as x=x y=-z z=y",
                      value);
 }
 
@@ -119,8 +119,8 @@ static void find_column(file_reader *r, const char *name, int field)
         if (strcmp(names[c], name) == 0) {
             for (int i = 0; i < field; i++)
                 if (r->place[i] == c)
-                    mistakes_add(r->m, r->line, field + 1, "column '%s' is given twice; remove one",
-                                 name);
+                    mistakes_add(r->m, r->line, field + 1,
+                                 "column '%s' is given twice; remove one of them", name);
             r->place[field] = c;
             return;
         }
@@ -147,7 +147,9 @@ static void read_columns(file_reader *r, char *const field[], int count)
         for (int i = 0; i < count; i++)
             found |= r->place[i] == c;
         if (!found)
-            mistakes_add(r->m, r->line, FIELDS + c, "column '%s' is missing; add it", names[c]);
+            mistakes_add(r->m, r->line, FIELDS + c,
+                         "column '%s' is missing; add it to this line and to the lines of values",
+                         names[c]);
     }
 }
 
@@ -158,15 +160,19 @@ static double number_of(const file_reader *r, const char *text, column c)
     double value;
     if (text == NULL || text[0] == '\0') {
         if (needed[c])
-            mistakes_add(r->m, r->line, 10 + c, "%s is missing", names[c]);
+            mistakes_add(r->m, r->line, 10 + c, "the field '%s' is missing or empty; fill it in",
+                         names[c]);
         return NAN;
     }
     if (!line_number(text, &value)) {
-        mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is not a number", names[c], text);
+        mistakes_add(
+            r->m, r->line, 10 + c,
+            "%s '%.40s' is not a number; write a number with a decimal point, such as 1.5e-3",
+            names[c], text);
         return NAN;
     }
     if ((c == SECONDS || c == UNCERTAINTY) && value < 0)
-        mistakes_add(r->m, r->line, 10 + c, "%s is below zero; give zero or a positive number",
+        mistakes_add(r->m, r->line, 10 + c, "%s is negative; give zero or a positive number",
                      names[c]);
     return value;
 }
@@ -178,8 +184,9 @@ static int count_of(const file_reader *r, const char *text, column c)
         return 0;
     if (value >= 1 && value <= MOST_ELEMENTS && value == floor(value))
         return (int)value;
-    mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is not valid; give a whole number from 1 to %d",
-                 names[c], text, MOST_ELEMENTS);
+    mistakes_add(r->m, r->line, 10 + c,
+                 "%s '%.40s' is not valid; give a whole number from 1 to %d, such as 8", names[c],
+                 text, MOST_ELEMENTS);
     return 0;
 }
 
@@ -194,7 +201,8 @@ static void take_fields(const file_reader *r, const char *const at[COLUMNS], imp
                           .uncertainty = number_of(r, at[UNCERTAINTY], UNCERTAINTY)};
     if (strlen(at[UNIT]) >= sizeof row->unit || strlen(at[QUANTITY]) >= sizeof row->quantity)
         mistakes_add(r->m, r->line, 1,
-                     "the name of a quantity or unit is too long; give a shorter one");
+                     "the name of the quantity or its unit is too long to be valid; give a name "
+                     "that 'beamwork list CASE' shows, and a unit such as N/m");
     snprintf(row->unit, sizeof row->unit, "%s", at[UNIT]);
     snprintf(row->quantity, sizeof row->quantity, "%s", at[QUANTITY]);
 }
@@ -209,7 +217,8 @@ static void read_row(file_reader *r, char *const field[], int count)
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
         if (count != r->fields)
             mistakes_add(r->m, r->line, 1,
-                         "number of fields in the row: %d, number of columns: %d; correct the row",
+                         "the line has %d fields, but there are %d columns; write one field for "
+                         "each column (it may be empty, as in a,,b)",
                          count, r->fields);
         return;
     }
@@ -225,7 +234,9 @@ static void read_fields(file_reader *r, char *line)
 {
     char *field[FIELDS];
     if (!r->versioned) {
-        mistakes_add(r->m, r->line, 1, "the file must begin with '# beamwork-import: 1'");
+        mistakes_add(r->m, r->line, 1,
+                     "the first line of values must follow the line '# beamwork-import: 1'; add it "
+                     "at the beginning of the file");
         r->versioned = 1;
     }
     const int count = line_split(line, field, FIELDS);
@@ -235,7 +246,10 @@ static void read_fields(file_reader *r, char *line)
     else if (!r->placed || strcmp(field[0], names[QUANTITY]) == 0)
         read_columns(r, field, count);
     else if (++r->rows > IMPORT_ROWS)
-        mistakes_add(r->m, r->line, 1, "the file has more than %d rows; split it", IMPORT_ROWS);
+        mistakes_add(r->m, r->line, 1,
+                     "the file has more than %d lines of values; divide it into several files, and "
+                     "import them together",
+                     IMPORT_ROWS);
     else
         read_row(r, field, count);
 }
@@ -266,13 +280,13 @@ static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
         TRY(read_line(r, *line, f));
     }
     if (ferror(from))
-        return fault_set(f, STATUS_FAULT, "%.200s: %s", r->path, strerror(errno));
+        return fault_unreadable(f, r->path, errno);
     TRY(close_block(r, f));
     if (r->rows == 0 && r->m->count == 0)
         mistakes_add(
             r->m, r->line > 0 ? r->line : 1, 1,
-            "the file has no values; write the names of the columns in the first line that "
-            "is not a comment, and the values in the following lines");
+            "the file has no values; after the lines that begin with #, write a line with the "
+            "names of the columns (quantity,unit,elements,value), and then a line for each value");
     return mistakes_status(r->m, f);
 }
 
@@ -280,7 +294,7 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
 {
     FILE *from = line_open(path);
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     file_reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};
     char *line = NULL;
     const status outcome = read_lines(&r, from, &line, f);

@@ -50,7 +50,8 @@ static int column_named(const map_reader *r, const document_node *at, const char
         value <= WORDS && value == floor(value))
         return (int)value - 1;
     document_mistake(r->m, at, 0,
-                     "'%.40s' is not a column; give the number of a column, or a name in 'columns'",
+                     "'%.40s' is not a column; give the number of a column, such as 2, or a name "
+                     "that 'columns' lists",
                      name);
     return -1;
 }
@@ -69,7 +70,9 @@ static wanted read_value(const map_reader *r, const document_node *key, const do
 {
     wanted w = {.key = key, .of = of, .column = -1, .abscissa = -1};
     if (of->kind != DOCUMENT_MAP) {
-        document_mistake(r->m, of, 0, "%s: {column: ..., unit: ...}", key->text);
+        document_mistake(r->m, of, 0,
+                         "%s: the value must be a map; write, for example, {column: 2, unit: mm}",
+                         key->text);
         return w;
     }
     map_keys_check(of, value_keys, r->m);
@@ -82,9 +85,10 @@ static wanted read_value(const map_reader *r, const document_node *key, const do
     const char *column = map_keys_text(r->m, of, "column", NULL),
                *x = map_keys_text(r->m, of, "abscissa", NULL);
     if (column == NULL || map_keys_text(r->m, of, "unit", NULL) == NULL)
-        document_mistake(r->m, key, 0,
-                         "%s: column and unit are required; give {column: ..., unit: ...}",
-                         key->text);
+        document_mistake(
+            r->m, key, 0,
+            "%s: column and unit are required; give, for example, {column: 2, unit: mm}",
+            key->text);
     else
         w.column = column_named(r, of, column);
     if (x != NULL)
@@ -173,21 +177,20 @@ static status read_files(map_reader *r, const char *const file[], int files, wan
     for (int i = 0; i < files; i++) {
         FILE *from = line_open(file[i]);
         if (from == NULL)
-            return fault_set(f, STATUS_FAULT, "%.200s: %s", file[i], strerror(errno));
+            return fault_unreadable(f, file[i], errno);
         read_lines(r, from, file[i], list, count);
         const int failed = ferror(from);
         fclose(from);
         if (failed)
-            return fault_set(f, STATUS_FAULT, "%.200s cannot be read", file[i]);
+            return fault_unreadable(f, file[i], EIO);
     }
     for (int i = 0; i < count; i++) {
         r->block.at = list[i].key->line;
         if (list[i].seen == 0 || list[i].seen < list[i].rows)
-            document_mistake(
-                r->m, list[i].key, 0,
-                "%.60s: no row of the files matches; correct 'file', 'where', 'under' or "
-                "'rows'",
-                list[i].key->text);
+            document_mistake(r->m, list[i].key, 0,
+                             "%.60s: no line of the files matches, or fewer lines than 'rows' "
+                             "requires; correct 'file', 'where', 'under' or 'rows'",
+                             list[i].key->text);
         else if (list[i].rows != ALL)
             import_block_add(&r->block, &list[i].row);
     }
@@ -215,9 +218,9 @@ static import_header header_of(const map_reader *r)
     h.model_line = line_of(r, "model");
     h.convention_line = line_of(r, "convention");
     if (line_of(r, "axes") > 0 && !axes_parse(map_keys_text(r->m, r->root, "axes", ""), &h.axes))
-        document_mistake(
-            r->m, document_find(r->root, "axes"), 0,
-            "axes: give a signed permutation, theirs = beamwork's, such as x=x y=-z z=y");
+        document_mistake(r->m, document_find(r->root, "axes"), 0,
+                         "axes are not valid; give the program's axis = beamwork's axis for all "
+                         "three axes, such as x=x y=-z z=y");
     return h;
 }
 
@@ -262,12 +265,14 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
     r->unknowns = map_keys_count(r->m, r->root, "unknowns", 0);
     r->seconds = map_keys_number(r->m, r->root, "seconds", NAN);
     if (r->elements < 1)
-        mistakes_add(r->m, 1, 2, "elements: give the number of elements");
+        mistakes_add(r->m, 1, 2,
+                     "the number of elements is missing; add, for example, elements: 8");
     const document_node *values = document_find(r->root, "values");
     if (values != NULL && values->kind == DOCUMENT_MAP && values->count > 0)
         return read_values(r, values, map, file, files, into, f);
-    mistakes_add(r->m, 1, 3,
-                 "values: the key is missing or empty; name the quantities of the files in it");
+    mistakes_add(
+        r->m, 1, 3,
+        "the key 'values' is missing or empty; add it, with the quantities that the files contain");
     return STATUS_OK;
 }
 
@@ -292,7 +297,7 @@ status import_map_read(const char *map, const char *const file[], int files, imp
     map_reader r = {.m = m};
     status outcome;
     if (bytes == NULL || from == NULL) {
-        outcome = fault_set(f, STATUS_FAULT, "%.200s: %s", map, strerror(errno));
+        outcome = fault_unreadable(f, map, errno);
     } else {
         r.root = document_read(bytes, fread(bytes, 1, room, from), &a, m);
         m->out_of_memory |= a.failed;
@@ -319,8 +324,8 @@ static void map_keys_check(const document_node *map, const char *const known[], 
         const char *near = found ? NULL : choice_nearest(map->key[i]->text, name_at, known);
         if (!found)
             document_mistake(m, map->key[i], 0, "unknown key '%.40s'%s%s%s", map->key[i]->text,
-                             near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
-                             near != NULL ? "'?" : "");
+                             near != NULL ? "; did you mean '" : "; remove it",
+                             near != NULL ? near : "", near != NULL ? "'?" : "");
     }
 }
 
@@ -332,7 +337,9 @@ const char *map_keys_text(mistakes *m, const document_node *map, const char *key
         return otherwise;
     if (n->kind == DOCUMENT_TEXT)
         return n->text;
-    document_mistake(m, n, 0, "%s: a text", key);
+    document_mistake(
+        m, n, 0, "'%s' must be a word or a text, not a list or a map; write, for example, %s: text",
+        key, key);
     return otherwise;
 }
 
@@ -344,7 +351,8 @@ double map_keys_number(mistakes *m, const document_node *map, const char *key, d
         return otherwise;
     if (line_number(text, &value))
         return value;
-    document_mistake(m, document_find(map, key), 0, "%s '%.40s' is not a number", key, text);
+    document_mistake(m, document_find(map, key), 0,
+                     "%s '%.40s' is not a number; give a number such as 8", key, text);
     return otherwise;
 }
 
@@ -353,6 +361,8 @@ static int map_keys_count(mistakes *m, const document_node *map, const char *key
     const double value = map_keys_number(m, map, key, otherwise);
     if (value == floor(value) && value >= 0 && value <= 10000000)
         return (int)value;
-    document_mistake(m, document_find(map, key), 0, "%s: a whole number", key);
+    document_mistake(m, document_find(map, key), 0,
+                     "'%s' must be a whole number that is not negative; give a number such as 8",
+                     key);
     return otherwise;
 }

@@ -101,13 +101,14 @@ static imported *gather_rows(const value_row *first, int count)
     return out;
 }
 
-static const char remedy[] = "write it with 'beamwork import FILE -o'";
+static const char remedy[] = "give a file written by 'beamwork import theirs.csv -o theirs.h5'";
 
 static status damaged(const store_reader *r, const char *where)
 {
     return fault_set(r->f, STATUS_FAULT,
-                     "%.120s: %.60s is missing or damaged; run 'beamwork import' again", r->path,
-                     where);
+                     "%.120s: %.60s is missing or damaged; remove the file, and repeat the "
+                     "'beamwork import' command that wrote it",
+                     r->path, where);
 }
 
 /* Reads one series, which consists of consecutive rows of a program at a point. */
@@ -129,11 +130,11 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
         return STATUS_OK;
     }
     if (is_there(r->s, place, first->formulation))
-        return fault_set(
-            r->f, STATUS_REFUSED,
-            "%.100s: results of %.60s/%.60s with %.100s have already been read; give them only "
-            "once",
-            r->path, of, parameters[0] != '\0' ? parameters : "default", first->formulation);
+        return fault_set(r->f, STATUS_REFUSED,
+                         "%.100s: results of %.60s/%.60s with %.100s have already been read from "
+                         "another file; remove one of the two files from --imported",
+                         r->path, of, parameters[0] != '\0' ? parameters : "default",
+                         first->formulation);
     imported *found = gather_rows(first, count);
     if (found == NULL)
         return fault_memory(r->f, "imported values");
@@ -207,7 +208,8 @@ static status read_file(store_reader *r, hid_t file)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version) ||
         version < SCHEMA_OLDEST || version > SCHEMA_VERSION)
-        return fault_set(r->f, STATUS_FAULT, "%.120s: the file is not a results file; %s", r->path,
+        return fault_set(r->f, STATUS_FAULT,
+                         "%.120s is not a results file of this version of beamwork; %s", r->path,
                          remedy);
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome = read_cases(r, cases);
@@ -215,8 +217,8 @@ static status read_file(store_reader *r, hid_t file)
         H5Gclose(cases);
     TRY(outcome);
     if (r->left->all == 0)
-        return fault_set(r->f, STATUS_REFUSED, "%.120s: the file contains no imported results; %s",
-                         r->path, remedy);
+        return fault_set(r->f, STATUS_REFUSED, "%.120s contains no imported results; %s", r->path,
+                         remedy);
     return STATUS_OK;
 }
 
@@ -224,12 +226,17 @@ status import_store_read(const char *path, int gates, sweep *s, import_left *lef
 {
     store_reader r = {path, gates, s, left, f};
     *left = (import_left){0, 0, ""};
+    const char *dot = strrchr(path, '.');
+    if (dot != NULL && strcmp(dot, ".csv") == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%.120s is a CSV file; convert it with 'beamwork import %.120s -o "
+                         "theirs.h5', and give --imported theirs.h5",
+                         path, path);
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%.120s: the file cannot be read as HDF5; %s", path,
-                         remedy);
+        return fault_set(f, STATUS_FAULT, "%.120s is not valid HDF5; %s", path, remedy);
     const status outcome = read_file(&r, file);
     H5Fclose(file);
     return outcome;

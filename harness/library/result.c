@@ -10,8 +10,9 @@ static status write_json(const bw_result *r, char **json, fault *f)
     if (json != NULL)
         *json = NULL;
     if (r == NULL || json == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "bw_result_json: give a result and a pointer for the text");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "bw_result_json: an argument is NULL; give a result and a pointer for the text");
     TRY(text_begin(&t, f));
     return text_end(&t, json_write_solution(t.to, &r->sweep, r->truths, f), json, f);
 }

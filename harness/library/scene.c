@@ -16,7 +16,7 @@ static status new_scene(const case_type *type, scene_file *file, char *name, bw_
     bw_scene *s = calloc(1, sizeof *s);
     if (s == NULL) {
         source_release(from);
-        return fault_set(f, STATUS_FAULT, "out of memory for a scene");
+        return fault_memory(f, "a scene");
     }
     s->from = from;
     parameters_default(type, s->parameter);
@@ -29,8 +29,9 @@ static status find(const char *name, bw_scene **out, fault *f)
     if (out != NULL)
         *out = NULL;
     if (name == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "bw_scene_case: give a name and a pointer for the scene");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "bw_scene_case: an argument is NULL; give a name and a pointer for the scene");
     const case_type *type = case_find(name, f);
     return type != NULL ? new_scene(type, NULL, NULL, out, f) : STATUS_REFUSED;
 }
@@ -63,7 +64,7 @@ static status read_scene(const char *bytes, size_t size, const char *name, bw_sc
     mistakes m;
     char *kept = strdup(name);
     if (kept == NULL)
-        return fault_set(&c->fault, STATUS_FAULT, "out of memory for a scene");
+        return fault_memory(&c->fault, "a scene");
     const status outcome = read_file(bytes, size, kept, &file, &m, &c->fault);
     if (outcome == STATUS_OK)
         return new_scene(scene_file_case(file), file, kept, out, &c->fault);
@@ -80,8 +81,10 @@ bw_status bw_scene_read(const char *bytes, size_t size, const char *name, bw_sce
     if (out != NULL)
         *out = NULL;
     if (bytes == NULL || out == NULL)
-        return call_end(&c, fault_set(&c.fault, STATUS_REFUSED,
-                                      "bw_scene_read: give a text and a pointer for the scene"));
+        return call_end(
+            &c, fault_set(
+                    &c.fault, STATUS_REFUSED,
+                    "bw_scene_read: an argument is NULL; give a text and a pointer for the scene"));
     return call_end(&c, read_scene(bytes, size, name != NULL ? name : "scene", out, &c));
 }
 
@@ -92,8 +95,10 @@ bw_status bw_scene_open(const char *path, bw_scene **out, char **why)
     if (out != NULL)
         *out = NULL;
     if (path == NULL || out == NULL)
-        return call_end(&c, fault_set(&c.fault, STATUS_REFUSED,
-                                      "bw_scene_open: give a path and a pointer for the scene"));
+        return call_end(
+            &c, fault_set(
+                    &c.fault, STATUS_REFUSED,
+                    "bw_scene_open: an argument is NULL; give a path and a pointer for the scene"));
     return call_end(&c, read_scene(NULL, 0, path, out, &c));
 }
 
@@ -103,7 +108,10 @@ bw_status bw_scene_set(bw_scene *s, const char *assignment, char **why)
     call_begin(&c, why);
     if (s == NULL || assignment == NULL)
         return call_end(
-            &c, fault_set(&c.fault, STATUS_REFUSED, "bw_scene_set: give a scene and NAME=VALUE"));
+            &c,
+            fault_set(
+                &c.fault, STATUS_REFUSED,
+                "bw_scene_set: an argument is NULL; give a scene and a text such as NAME=VALUE"));
     return call_end(&c, parameters_set(source_case(s->from), assignment, s->parameter, &c.fault));
 }
 
@@ -131,7 +139,8 @@ static status document(const bw_scene *s, char **out, const char *what,
     if (out != NULL)
         *out = NULL;
     if (s == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED, "%s: give a scene and a pointer for the text", what);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: an argument is NULL; give a scene and a pointer for the text", what);
     TRY(text_begin(&t, f));
     return text_end(&t, write(t.to, s, f), out, f);
 }
@@ -177,7 +186,8 @@ static status list_of(const char *name, char **json, fault *f)
     truths deviations = {0};
     document_text t;
     if (json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_list: give a pointer for the text");
+        return fault_set(f, STATUS_REFUSED,
+                         "bw_list: the pointer is NULL; give a pointer for the text");
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
@@ -196,7 +206,7 @@ bw_status bw_list(const char *what, char **json, char **why)
 
 static status lost(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a document");
+    return fault_memory(f, "a document");
 }
 
 status text_begin(document_text *t, fault *f)
@@ -252,11 +262,11 @@ static int contestants_jobs(void)
 
 static status contestants_finished(const sweep *s, fault *f)
 {
-    return s->unfinished == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_TIME_LIMIT,
-                           "stopped before all runs were complete; number of missing runs: %d",
-                           s->unfinished);
+    return s->unfinished == 0 ? STATUS_OK
+                              : fault_set(f, STATUS_TIME_LIMIT,
+                                          "stopped before all runs were complete, as option 'stop' "
+                                          "requested; number of missing runs: %d",
+                                          s->unfinished);
 }
 
 typedef struct study {
@@ -315,7 +325,9 @@ static status converge(const bw_scene *from, const char *names, const char *mesh
     if (json != NULL)
         *json = NULL;
     if (from == NULL || json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_converge: give a scene and a pointer for the text");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "bw_converge: an argument is NULL; give a scene and a pointer for the text");
     status outcome = prepare(&s, names, meshes, options, f);
     if (outcome == STATUS_OK)
         outcome = write_study(&s, json, f);
@@ -443,7 +455,8 @@ static status answer(verify_trial *v, char **json, fault *f)
 static status verify(verify_trial *v, const char *names, const char *options, char **json, fault *f)
 {
     if (json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_verify: give a pointer for the text");
+        return fault_set(f, STATUS_REFUSED,
+                         "bw_verify: the pointer is NULL; give a pointer for the text");
     *json = NULL;
     status outcome = verify_prepare(v, names, options, f);
     if (outcome == STATUS_OK)

@@ -80,7 +80,7 @@ static status compare(bw_result *r, fault *f)
     subjects list = {0};
     r->error = malloc(((size_t)count + 1) * sizeof *r->error);
     if (r->error == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for errors");
+        return fault_memory(f, "errors");
     for (int i = 0; i < count; i++)
         r->error[i] = NAN;
     gather_mesh(&g, &record_quantity, 0, 0, &list);
@@ -88,7 +88,7 @@ static status compare(bw_result *r, fault *f)
         r->error[list.row[i].index] = error_of(&list.row[i]);
     const int bad = list.bad;
     gather_free(&list);
-    return bad ? fault_set(f, STATUS_FAULT, "out of memory for errors") : STATUS_OK;
+    return bad ? fault_memory(f, "errors") : STATUS_OK;
 }
 
 /* Fills the result. *solved: status of the solution, whose message is in f. */
@@ -116,7 +116,9 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
     if (out != NULL)
         *out = NULL;
     if (from == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_solve: give a scene and a pointer for the result");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "bw_solve: an argument is NULL; give a scene and a pointer for the result");
     if (elements < 0 || elements > MESHES_FINEST)
         return fault_set(f, STATUS_REFUSED,
                          "the number of elements %d is not valid; give a whole number from 1 to "
@@ -127,13 +129,14 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
     TRY(read_options(options, &what, &stop, f));
     bw_result *r = calloc(1, sizeof *r);
     if (r == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a result");
+        return fault_memory(f, "a result");
     r->from = source_hold(from->from);
     solution_choice why = {.formulation = ""};
     stop_observe(stop);
     status filled = fill(r, from, name, &what, &why, &solved, f);
     if (filled == STATUS_FAULT && stop_check(NULL) != STATUS_OK)
-        filled = fault_set(f, STATUS_TIME_LIMIT, "stopped before the solution was finished");
+        filled = fault_set(f, STATUS_TIME_LIMIT,
+                           "stopped before the solution was finished, as option 'stop' requested");
     stop_observe(0);
     solution_choice_free(&why);
     if (filled == STATUS_OK)
@@ -384,7 +387,7 @@ status source_new(const case_type *type, scene_file *file, char *name, source **
     if (*out == NULL) {
         scene_file_free(file);
         free(name);
-        return fault_set(f, STATUS_FAULT, "out of memory for a scene");
+        return fault_memory(f, "a scene");
     }
     **out = (source){.type = type, .file = file, .name = name};
     atomic_init(&(*out)->holders, 1);
@@ -458,11 +461,12 @@ static status load(const char *path, char **name, fault *f)
         *name = NULL;
     if (path == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "bw_formulation_load: give the path of a shared object");
+                         "bw_formulation_load: the path is NULL or empty; give the path of a "
+                         "shared object, such as ./mine.so");
     TRY(plugin_load(path, &type, f));
     TRY(formulations_add(type, NULL, f));
     if (name != NULL && (*name = strdup(type->name)) == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a name");
+        return fault_memory(f, "a name");
     return STATUS_OK;
 }
 
@@ -498,33 +502,37 @@ static status take(const call_option *o, json_t *value, fault *f)
     switch (o->kind) {
     case OPTION_SWITCH:
         if (!json_is_boolean(value))
-            return fault_set(f, STATUS_REFUSED, "option '%s': give true or false", o->name);
+            return fault_set(f, STATUS_REFUSED, "option '%s' is not valid; give true or false",
+                             o->name);
         *(int *)o->to = json_is_true(value);
         return STATUS_OK;
     case OPTION_WHOLE:
         if (!json_is_integer(value) || !is_within(o, json_integer_value(value)))
-            return fault_set(f, STATUS_REFUSED, "option '%s': give a whole number from %d to %d",
-                             o->name, o->least, o->most);
+            return fault_set(f, STATUS_REFUSED,
+                             "option '%s' is not valid; give a whole number from %d to %d", o->name,
+                             o->least, o->most);
         *(int *)o->to = (int)json_integer_value(value);
         return STATUS_OK;
     case OPTION_FILE:
         if (!json_is_integer(value) || !is_within(o, json_integer_value(value)) ||
             fcntl((int)json_integer_value(value), F_GETFD) < 0)
-            return fault_set(f, STATUS_REFUSED, "option '%s': give the descriptor of an open file",
+            return fault_set(f, STATUS_REFUSED,
+                             "option '%s' is not valid; give the descriptor of an open file",
                              o->name);
         *(int *)o->to = (int)json_integer_value(value);
         return STATUS_OK;
     case OPTION_SHARE:
         if (!json_is_number(value) || !(number > 0 && number < 1))
-            return fault_set(f, STATUS_REFUSED, "option '%s': give a number between 0 and 1",
-                             o->name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "option '%s' is not valid; give a number between 0 and 1, such as 0.01", o->name);
         *(double *)o->to = number;
         return STATUS_OK;
     case OPTION_WORDS:
         break;
     }
     if (!json_is_string(value))
-        return fault_set(f, STATUS_REFUSED, "option '%s': give a text", o->name);
+        return fault_set(f, STATUS_REFUSED, "option '%s' is not valid; give a text", o->name);
     *(const char **)o->to = json_string_value(value);
     return STATUS_OK;
 }
@@ -542,7 +550,8 @@ status options_read(const char *json, const call_option table[], json_t **kept, 
         return fault_set(f, STATUS_REFUSED, "options: line %d, column %d: %.150s", error.line,
                          error.column, error.text);
     if (!json_is_object(*kept))
-        return fault_set(f, STATUS_REFUSED, "options: give an object, such as {\"threads\": 2}");
+        return fault_set(f, STATUS_REFUSED,
+                         "the options are not a JSON object; give one such as {\"threads\": 2}");
     json_object_foreach(*kept, key, value)
     {
         const call_option *o = table;

@@ -14,16 +14,15 @@ status chain_alloc(int links, int joint, int y, chain **out, fault *f)
 {
     chain *s = *out = calloc(1, sizeof *s);
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a member");
+        return fault_memory(f, "a member");
     s->links = links;
     s->c = joint;
     s->y = y;
     s->inside = y - joint;
     s->kept = malloc((size_t)links * (size_t)chain_kept_size(joint, y) * sizeof *s->kept);
     s->a = malloc(((size_t)links + 1) * (size_t)joint * sizeof *s->a);
-    return s->kept != NULL && s->a != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for a member of %d elements", links);
+    return s->kept != NULL && s->a != NULL ? STATUS_OK
+                                           : fault_memory(f, "a member of %d elements", links);
 }
 
 void chain_free(chain *s)

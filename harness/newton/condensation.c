@@ -103,7 +103,7 @@ static status find_members(condensation *s, const condensation *of, fault *f)
     s->members = model_scene(m)->members;
     s->member = calloc((size_t)s->members, sizeof *s->member);
     if (s->member == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     s->lent = of != NULL;
     if (s->lent) {
         memcpy(s->member, of->member, (size_t)s->members * sizeof *s->member);
@@ -122,7 +122,7 @@ static status build(condensation *s, const condensation *of, int count, const in
     s->number = malloc(((size_t)s->all + 1) * sizeof *s->number);
     s->end = calloc((size_t)s->members * MEMBER_COLUMNS, sizeof *s->end);
     if (s->number == NULL || s->end == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     const int ends = condensation_number(s, count, released);
     *few = ends <= MOST_ENDS;
     if (!*few)
@@ -130,7 +130,7 @@ static status build(condensation *s, const condensation *of, int count, const in
     s->small = malloc(((size_t)s->unknowns + 1) * sizeof *s->small);
     s->driven = malloc(((size_t)model_driven(m) + 1) * sizeof *s->driven);
     if (s->driven == NULL || s->unknown == NULL || s->small == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
     s->inside.by_numbers = !s->inside.symmetric;
     TRY(condensation_patterns(s, ends, f));
@@ -144,7 +144,7 @@ static status allocate(const equations *eq, const condensation *of, int count, c
     int few = 0;
     condensation *s = calloc(1, sizeof *s);
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     s->eq = eq;
     s->m = m;
     s->all = model_all_coordinates(m);
@@ -310,7 +310,7 @@ static status pattern_of(const condensation *s, int count, const int list[], int
     out->row = malloc((entries + 1) * sizeof *out->row);
     out->value = calloc(entries + 1, sizeof *out->value);
     if (out->column == NULL || out->row == NULL || out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     int at = 0, done = 0;
     for (int j = 0; j < count; j++) {
         const int column = own ? j : list[j];
@@ -330,7 +330,7 @@ static status find_sources(condensation *s, fault *f)
     const sparse *a = &s->inside;
     s->from = malloc(((size_t)a->column[a->n] + 1) * sizeof *s->from);
     if (s->from == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+        return fault_memory(f, "the ends of members");
     for (int j = 0; j < a->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             int at = s->K.column[s->unknown[j]];
@@ -365,7 +365,7 @@ static status condensation_patterns(condensation *s, int ends, fault *f)
     if (coupled != NULL && list != NULL)
         outcome = patterns_with(s, ends, coupled, list, f);
     else
-        fault_set(f, outcome, "out of memory for the ends of members");
+        fault_memory(f, "the ends of members");
     free(coupled);
     free(list);
     return outcome;

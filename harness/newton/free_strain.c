@@ -202,7 +202,7 @@ status free_strain_begin(const model *m, run_free **out, fault *f)
     if (made == NULL || element == NULL) {
         free(made);
         free(element);
-        return fault_set(f, STATUS_FAULT, "out of memory for stress-free strains of elements");
+        return fault_memory(f, "stress-free strains of elements");
     }
     *made = (run_free){size, element};
     *out = made;

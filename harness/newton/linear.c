@@ -376,7 +376,7 @@ static status workspace_alloc(analysis_context *c, double path, system_workspace
     w->load = calloc(4 * all, sizeof *w->load);
     w->sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *w->sigma);
     if (w->load == NULL || w->sigma == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+        return fault_memory(f, "a linear solution");
     w->r = w->load + all;
     w->weight = w->r + all;
     w->shaken = w->weight + all;

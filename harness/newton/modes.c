@@ -178,7 +178,7 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
         return STATUS_OK;
     free(out->part);
     out->part = NULL;
-    return fault_set(f, STATUS_FAULT, "out of memory for a mode");
+    return fault_memory(f, "a mode");
 }
 
 static void squares(int points, const double *part, double sum[MEASURES])

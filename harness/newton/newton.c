@@ -32,7 +32,7 @@ static status allocate(newton_run *n, int condense, fault *f)
     n->dx = calloc((1 + MODEL_MAX_CONDITIONS) * all, sizeof *n->dx);
     n->weight = calloc(all, sizeof *n->weight);
     if (n->residual == NULL || n->dx == NULL || n->weight == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
+        return fault_memory(f, "a static solution");
     n->column = n->dx + n->all;
     metric_of(m, n->weight);
     TRY(allocate_tangent(n, condense, f));

@@ -240,9 +240,7 @@ status outcome_stations(outcome_path *p, int stations, fault *f)
     p->stations = stations;
     p->value = calloc((size_t)stations + 1, sizeof *p->value);
     p->state = calloc((size_t)stations + 1, sizeof(model_state *));
-    return p->value == NULL || p->state == NULL
-               ? fault_set(f, STATUS_FAULT, "out of memory for a path")
-               : STATUS_OK;
+    return p->value == NULL || p->state == NULL ? fault_memory(f, "a path") : STATUS_OK;
 }
 
 status outcome_keep(outcome_path *p, const model *m, const model_state *s, int whole, double path,
@@ -358,7 +356,7 @@ status history_add_motion(solve_result *r, int analysis, double path, const outc
 {
     motion_record *more = realloc(r->motion, (size_t)(r->motions + o->steps + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the steps of a motion");
+        return fault_memory(f, "the steps of a motion");
     r->motion = more;
     for (int i = 0; i < o->steps; i++)
         r->motion[r->motions++] = (motion_record){analysis, path, o->step[i]};

@@ -51,10 +51,8 @@ status pieces_alloc(condensed_member *of, fault *f)
         of->links += of->group[i].pieces;
     }
     of->r = malloc(((size_t)of->links + 1) * (size_t)c * sizeof *of->r);
-    return good && of->r != NULL
-               ? chain_alloc(of->links, c, c, &of->chain, f)
-               : fault_set(f, STATUS_FAULT, "out of memory for a member of %d elements",
-                           of->elements);
+    return good && of->r != NULL ? chain_alloc(of->links, c, c, &of->chain, f)
+                                 : fault_memory(f, "a member of %d elements", of->elements);
 }
 
 void pieces_free(condensed_member *of)
@@ -88,7 +86,7 @@ static status filling_alloc(filling *w, fault *f)
         malloc((rows * width * WIDTH + 2 * (strains + rows) * width * WIDTH + own * own * WIDTH) *
                sizeof *w->memory);
     if (w->memory == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a member");
+        return fault_memory(f, "a member");
     w->front = w->memory;
     w->work = w->front + rows * width * WIDTH;
     w->H = w->work + 2 * (strains + rows) * width * WIDTH;

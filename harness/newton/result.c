@@ -103,7 +103,7 @@ status shapes_alloc(shapes *s, fault *f)
     s->node = calloc(states * 3 * (size_t)s->nodes + 1, sizeof *s->node);
     return s->first != NULL && s->state != NULL && s->point != NULL && s->node != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for the shapes of %d states", s->states);
+               : fault_memory(f, "the shapes of %d states", s->states);
 }
 
 void shapes_free(shapes *s)

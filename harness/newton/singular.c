@@ -23,8 +23,7 @@ status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadrat
         good &= (*of_coordinates[i] = calloc(all, sizeof(double))) != NULL;
     for (int i = 0; i < 2; i++)
         good &= (*of_stresses[i] = calloc(stresses, sizeof(double))) != NULL;
-    return good ? sparse_alloc_like(pattern, &p->loads, f)
-                : fault_set(f, STATUS_FAULT, "out of memory for prestress and modes");
+    return good ? sparse_alloc_like(pattern, &p->loads, f) : fault_memory(f, "prestress and modes");
 }
 
 void quadratic_forms_free(quadratic_forms *p)

@@ -40,7 +40,7 @@ static status allocate(const analysis_context *c, const scene_compliance *a,
     TRY(border_alloc(c, a, &t->border, f));
     t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
     if (t->residual == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+        return fault_memory(f, "a compliance");
     const int with_driven = t->border.count > 0;
     const border *b = &t->border;
     if (members != NULL)
@@ -337,9 +337,7 @@ status border_alloc(const analysis_context *c, const scene_compliance *a, border
             b->coordinate[b->count++] = i;
     b->U = calloc((size_t)(b->count * size.free) + 1, sizeof *b->U);
     b->V = calloc((size_t)(b->count * size.free) + 1, sizeof *b->V);
-    return b->U == NULL || b->V == NULL
-               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
-               : STATUS_OK;
+    return b->U == NULL || b->V == NULL ? fault_memory(f, "a compliance") : STATUS_OK;
 }
 
 void border_free(border *b)
@@ -388,7 +386,7 @@ status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
     out->solution = calloc(TANGENT_COMPONENTS * all, sizeof *out->solution);
     out->x = calloc(4 * all, sizeof *out->x);
     if (out->Z == NULL || out->x == NULL || out->solution == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+        return fault_memory(f, "a compliance");
     out->load = out->x + all;
     out->rest = out->load + all;
     out->weight = out->rest + all;

@@ -29,7 +29,7 @@ static status begin(const equations *eq, fault *f)
         free(u->value);
         u->of = NULL;
         u->value = NULL;
-        return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
+        return fault_memory(f, "the undeformed elements");
     }
     for (int i = 0; i < model_elements(m); i++)
         u->of[i] = NONE;
@@ -126,7 +126,7 @@ static status grow(const equations *eq, fault *f)
         return STATUS_OK;
     double *more = realloc(u->value, 2 * (size_t)u->room * size_of(eq->m) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
+        return fault_memory(f, "the undeformed elements");
     u->value = more;
     u->room *= 2;
     return STATUS_OK;

@@ -18,7 +18,7 @@ status candidates_alloc(candidates *p, const eigen_problem *problem, double sign
     p->work = malloc(n * sizeof *p->work);
     p->form = malloc(n * sizeof *p->form);
     if (p->work == NULL || p->form == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
+        return fault_memory(f, "an eigenvalue problem");
     return STATUS_OK;
 }
 
@@ -47,7 +47,7 @@ static status make_room(candidates *p, int room, fault *f)
     if (room > p->room &&
         !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
           grow(&p->stiffness, count) && grow(&p->x, numbers)))
-        return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
+        return fault_memory(f, "%d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
     return STATUS_OK;
 }
@@ -130,9 +130,7 @@ status candidates_refine(candidates *p, int count, fault *f)
         p->refinements++;
     if (p->correction == NULL)
         p->correction = malloc((size_t)p->n * sizeof *p->correction);
-    return p->correction != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
+    return p->correction != NULL ? STATUS_OK : fault_memory(f, "refined solutions");
 }
 
 /* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. */
@@ -400,10 +398,9 @@ status polish(candidates *p, long *solutions, fault *f)
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *Y = malloc((count * n + 1) * sizeof *Y),
            *small = calloc(2 * count * count + count + 1, sizeof *small);
-    const status outcome =
-        Y != NULL && small != NULL
-            ? replace(p, Y, small, solutions, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for %zu vectors of %zu unknowns", count, n);
+    const status outcome = Y != NULL && small != NULL
+                               ? replace(p, Y, small, solutions, f)
+                               : fault_memory(f, "%zu vectors of %zu unknowns", count, n);
     free(Y);
     free(small);
     return outcome;

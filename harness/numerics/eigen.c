@@ -51,10 +51,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
 {
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
     double *mu = malloc((size_t)count * sizeof *mu), *Kx = candidates_products(p);
-    const status outcome =
-        mu != NULL && Kx != NULL
-            ? take_lanczos(p, count, mu, Kx, least, solutions, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count);
+    const status outcome = mu != NULL && Kx != NULL
+                               ? take_lanczos(p, count, mu, Kx, least, solutions, f)
+                               : fault_memory(f, "%d eigenvectors", count);
     free(mu);
     free(Kx);
     return outcome;
@@ -215,7 +214,7 @@ static status store_results(candidates *p, int wanted, eigen_side *out, eigen_re
     out->residual = calloc((size_t)count + 1, sizeof *out->residual);
     out->error = calloc((size_t)count + 1, sizeof *out->error);
     if (out->residual == NULL || out->error == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
+        return fault_memory(f, "%d eigenvalues", count);
     TRY(improve(p, count, out, r, f));
     drop_lost(p, count, out);
     for (int i = 0; i < count; i++) {
@@ -315,7 +314,7 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
     const int n = e->K->n;
     double *K = calloc((size_t)n * (size_t)n, sizeof *K);
     if (K == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a dense matrix of %d unknowns", n);
+        return fault_memory(f, "a dense matrix of %d unknowns", n);
     fill_dense(e->A, e->sign, x);
     fill_dense(e->K, 1, K);
     const int info = LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', n, x, n, K, n, mu);
@@ -346,10 +345,8 @@ static status eigen_dense_add(candidates *const side[2], const int wanted[2], fa
 {
     const size_t n = (size_t)(side[0] != NULL ? side[0] : side[1])->n;
     double *mu = calloc(n, sizeof *mu), *x = calloc(n * n, sizeof *x);
-    const status outcome =
-        mu != NULL && x != NULL
-            ? take_dense(side, wanted, mu, x, f)
-            : fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
+    const status outcome = mu != NULL && x != NULL ? take_dense(side, wanted, mu, x, f)
+                                                   : fault_memory(f, "an eigenvalue problem");
     free(mu);
     free(x);
     return outcome;

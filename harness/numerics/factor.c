@@ -24,7 +24,7 @@ static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 {
     matrix_factor *fa = *out = calloc(1, sizeof *fa);
     if (fa == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+        return fault_memory(f, "factors");
     fa->n = pattern->n;
     fa->upper = pattern->symmetric;
     fa->counts.condition = fa->counts.determinant = 1;
@@ -34,7 +34,7 @@ static status begin(const sparse *pattern, matrix_factor **out, fault *f)
         fa->other = malloc(((size_t)fa->n + 1) * sizeof *fa->other);
     return fa->residual != NULL && (pattern->symmetric || fa->other != NULL)
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for factors");
+               : fault_memory(f, "factors");
 }
 
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f)
@@ -72,7 +72,7 @@ status factor_of(const factor_operator *by, matrix_factor **out, fault *f)
     matrix_factor *fa = *out = calloc(1, sizeof *fa);
     if (fa == NULL) {
         by->free(by->context);
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+        return fault_memory(f, "factors");
     }
     fa->by = *by;
     return STATUS_OK;
@@ -166,7 +166,7 @@ status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
     if (outcome == STATUS_SINGULAR)
         factor_report_singular(f);
     else if (outcome == STATUS_FAULT)
-        fault_set(f, outcome, "out of memory for the factors of %d unknowns", fa->n);
+        fault_memory(f, "the factors of %d unknowns", fa->n);
     return outcome;
 }
 

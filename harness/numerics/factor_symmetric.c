@@ -121,9 +121,7 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
     free(path);
     if (found)
         triangular_groups_place(&fs->groups, fs->column, fs->row);
-    return found ? STATUS_OK
-                 : fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor",
-                             counts->entries);
+    return found ? STATUS_OK : fault_memory(f, "%ld entries of a factor", counts->entries);
 }
 
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
@@ -132,10 +130,10 @@ status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, fac
     const int n = pattern->n;
     factor_symmetric *fs = *out = calloc(1, sizeof *fs);
     if (fs == NULL || !lay_out(fs, (size_t)n, (size_t)pattern->column[n]))
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+        return fault_memory(f, "factors");
     fs->n = n;
     if (amd_order(n, pattern->column, pattern->row, fs->order, NULL, NULL) < AMD_OK)
-        return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", n);
+        return fault_memory(f, "ordering %d unknowns", n);
     for (int i = 0; i < n; i++)
         fs->inverse[fs->order[i]] = i;
     permute(pattern, fs);
@@ -146,14 +144,13 @@ status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric 
 {
     factor_symmetric *fs = *out = malloc(sizeof *fs);
     if (fs == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+        return fault_memory(f, "factors");
     *fs = *of;
     fs->lent = 1;
     fs->L_value = malloc(((size_t)fs->L_column[fs->n] + 1) * sizeof *fs->L_value);
     return lay_out_numbers(fs, (size_t)fs->n) && fs->L_value != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for %d entries of a factor",
-                           fs->L_column[fs->n]);
+               : fault_memory(f, "%d entries of a factor", fs->L_column[fs->n]);
 }
 
 void factor_symmetric_free(factor_symmetric *fs)

@@ -33,7 +33,7 @@ static status analyse(factor_unsymmetric *fu, const sparse *pattern, fault *f)
         return fault_set(f, STATUS_SINGULAR,
                          "the matrix is structurally singular, because a part is not supported; "
                          "support this part");
-    return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
+    return fault_memory(f, "ordering %d unknowns", fu->n);
 }
 
 status factor_unsymmetric_alloc(const sparse *pattern, int copies, factor_unsymmetric **out,
@@ -41,13 +41,13 @@ status factor_unsymmetric_alloc(const sparse *pattern, int copies, factor_unsymm
 {
     factor_unsymmetric *fu = *out = calloc(1, sizeof *fu);
     if (fu == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+        return fault_memory(f, "factors");
     fu->n = pattern->n;
     counts->negative_pivots = -1;
     klu_defaults(&fu->common);
     fu->largest = malloc(((size_t)fu->n + 1) * sizeof *fu->largest);
     if (fu->largest == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
+        return fault_memory(f, "ordering %d unknowns", fu->n);
     fu->fronts = copies > 0 ? fronts_alloc(pattern, copies, counts) : NULL;
     fu->of_fronts = *counts;
     return fu->fronts != NULL ? STATUS_OK : analyse(fu, pattern, f);

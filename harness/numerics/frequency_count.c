@@ -25,8 +25,7 @@ status subspace_alloc(subspace *b, eigen_product *S, void *context, const sparse
     b->Gp = calloc(most * most + 1, sizeof(double));
     const int good = b->V != NULL && b->SV != NULL && b->MV != NULL && b->GV != NULL &&
                      b->Mp != NULL && b->Gp != NULL;
-    return good ? STATUS_OK
-                : fault_set(f, STATUS_FAULT, "out of memory for a basis of %zu vectors", most);
+    return good ? STATUS_OK : fault_memory(f, "a basis of %zu vectors", most);
 }
 
 void subspace_free(subspace *b)
@@ -101,8 +100,7 @@ status estimate_alloc(int n, motion_estimate *e, fault *f)
 {
     memset(e, 0, sizeof *e);
     e->work = calloc((size_t)PARTS * (size_t)n + 1, sizeof *e->work);
-    return e->work != NULL ? STATUS_OK
-                           : fault_set(f, STATUS_FAULT, "out of memory for %d coordinates", n);
+    return e->work != NULL ? STATUS_OK : fault_memory(f, "%d coordinates", n);
 }
 
 void estimate_free(motion_estimate *e)
@@ -266,7 +264,7 @@ static status doubled_alloc(const sparse *pattern, sparse *out, fault *f)
     out->value = malloc((4 * (size_t)entries + 1) * sizeof *out->value);
     return out->column != NULL && out->row != NULL && out->value != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates", 2 * n);
+               : fault_memory(f, "a matrix of %d coordinates", 2 * n);
 }
 
 static void doubled_free(sparse *a)

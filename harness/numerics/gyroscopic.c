@@ -333,7 +333,7 @@ static status store_results(gyroscopic_solver *s, fault *f)
     r->error = calloc((size_t)r->count + 1, sizeof(double));
     r->mode = calloc((size_t)r->count * (size_t)r->n + 1, sizeof(double));
     if (r->frequency == NULL || r->growth == NULL || r->error == NULL || r->mode == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", r->count);
+        return fault_memory(f, "%d modes", r->count);
     TRY(estimate_alloc(r->n, &e, f));
     e.p = s->p;
     e.basis = &s->basis;
@@ -371,7 +371,7 @@ static status solve(gyroscopic_solver *s, fault *f)
     const gyroscopic_problem *p = s->p;
     const int vectors = p->wanted + SPARE;
     if (s->re == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for modes");
+        return fault_memory(f, "modes");
     if (s->out->negative < 0)
         return fault_set(f, STATUS_REFUSED,
                          "frequencies in a rotating frame require a symmetric stiffness; remove "

@@ -37,8 +37,7 @@ static status workspace_alloc(lanczos_workspace *w, int n, int wanted, int room,
     w->basis = malloc(N * vectors * sizeof *w->basis);
     w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
     if (w->numbers == NULL || w->integers == NULL || w->basis == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors,
-                         n);
+        return fault_memory(f, "%d vectors of %d unknowns", w->vectors, n);
     w->start = w->numbers;
     w->vector = w->start + N;
     w->work = w->vector + 3 * N;

@@ -14,7 +14,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
+    return fault_memory(f, "a reduced model");
 }
 
 typedef struct reduction {

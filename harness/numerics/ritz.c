@@ -17,9 +17,8 @@ status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
     r->lambda = calloc((size_t)room + 1, sizeof *r->lambda);
     r->c = calloc((size_t)room * (size_t)b->room + 1, sizeof *r->c);
     r->left = calloc((size_t)room * (size_t)b->room + 1, sizeof *r->left);
-    return r->lambda != NULL && r->c != NULL && r->left != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for %d modes", room);
+    return r->lambda != NULL && r->c != NULL && r->left != NULL ? STATUS_OK
+                                                                : fault_memory(f, "%d modes", room);
 }
 
 void ritz_free(ritz *r)

@@ -15,8 +15,7 @@ status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f)
     const int entries = pattern->column[pattern->n];
     out->value = calloc((size_t)(entries > 0 ? entries : 1), sizeof *out->value);
     if (out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
-                         pattern->n);
+        return fault_memory(f, "a matrix of %d coordinates", pattern->n);
     return STATUS_OK;
 }
 
@@ -153,8 +152,7 @@ status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f)
     }
     if (b == NULL || b->upper.column == NULL || b->upper.row == NULL || b->upper.value == NULL ||
         b->from == NULL || b->diagonal == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
-                         pattern->n);
+        return fault_memory(f, "a matrix of %d coordinates", pattern->n);
     b->mirror = b->from + entries;
     fill(pattern, b);
     return STATUS_OK;
@@ -207,7 +205,7 @@ static status triplets_alloc(int rows, int columns, matrix_kind kind, int most, 
     out->value = malloc(((size_t)most + 1) * sizeof *out->value);
     return out->row != NULL && out->column != NULL && out->value != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d rows", rows);
+               : fault_memory(f, "a matrix of %d rows", rows);
 }
 
 void triplets_free(triplets *t)
@@ -304,7 +302,7 @@ status memory_append(void *list, int *count, const void *entry, size_t size, con
     if ((n & (n - 1)) == 0) {
         char *const grown = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
         if (grown == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for %s", what);
+            return fault_memory(f, "%s", what);
         entries = grown;
         memcpy(list, &entries, sizeof entries);
     }

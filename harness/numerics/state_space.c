@@ -30,7 +30,7 @@ typedef struct split {
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a state space");
+    return fault_memory(f, "a state space");
 }
 
 /* Computes C(m x n) = A(m x k) B(k x n) for large matrices. */

@@ -9,7 +9,7 @@
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a state space");
+    return fault_memory(f, "a state space");
 }
 
 /* Sizes, and the factors of all loops as functions of states, references, integrals and inputs. */

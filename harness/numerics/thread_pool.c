@@ -74,7 +74,7 @@ status thread_pool_alloc(int threads, thread_pool **out, fault *f)
         return STATUS_OK;
     thread_pool *t = calloc(1, sizeof *t);
     if (t == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for threads");
+        return fault_memory(f, "threads");
     t->threads = threads < THREAD_POOL_MOST ? threads : THREAD_POOL_MOST;
     pthread_mutex_init(&t->lock, NULL);
     pthread_cond_init(&t->wake, NULL);

@@ -124,6 +124,5 @@ status second_order_transfer(const second_order *m, double w, double pairs[], co
         return fault_set(f, STATUS_SINGULAR,
                          "the response at %g Hz is infinite; add damping, or remove this frequency",
                          w / (2 * PI));
-    return info == 0 ? STATUS_OK
-                     : fault_set(f, STATUS_FAULT, "out of memory for transfer functions");
+    return info == 0 ? STATUS_OK : fault_memory(f, "transfer functions");
 }

@@ -35,8 +35,8 @@ status comparison_limits_parse(const char *text, comparison_limits *out, fault *
         if (value == NULL || !number_read(at + name + 1, &end, &number) || end != at + length ||
             number < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "threshold '%.40s': write error=R,floor=R,work=R, each at most once, "
-                             "with numbers that are not negative",
+                             "--threshold '%.40s' is not valid; give each name at most once, with "
+                             "a number of at least 0, such as error=0.01,floor=1e-8,work=0.02",
                              at);
         *value = number;
         more = at[length] == ',';

@@ -11,7 +11,8 @@ static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
 static const char unwritten[] =
-    "the JSON could not be written, because the disk or the memory is full; free some space";
+    "the JSON output could not be written, because the disk or the memory is full; free disk space "
+    "or memory, and run the command again";
 
 static json_t *values_of(const assignment_list *l, const double value[])
 {

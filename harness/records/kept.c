@@ -31,8 +31,8 @@ static int is_hdf5(const char *path)
 static status unfit(const char *path, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "%.200s: the file is damaged, or is not a results file; its contents would be "
-                     "lost; move the file, or give another name",
+                     "%.200s would be overwritten, but it is damaged or is not a results file; "
+                     "move it, or give -o another name",
                      path);
 }
 
@@ -57,8 +57,8 @@ static status await_writer(const char *path, int most_waits, fault *f)
     return held == 0 || why != EWOULDBLOCK
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%.200s: another program is writing to this file; close the file in "
-                           "that program, or give another name",
+                           "%.200s is being written by another program; wait until that program "
+                           "has closed it, or give -o another name",
                            path);
 }
 
@@ -234,13 +234,14 @@ static status lock_beside(const file_place *at, int most_waits, char beside[PATH
     if (*lock >= 0)
         return STATUS_OK;
     if (length < PATH_MAX && errno == EWOULDBLOCK)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%.200s: another run is using %.200s; wait until it ends, or give another name",
-            at->path, beside);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s is in use by another beamwork run, which holds %.200s; wait until "
+                         "it ends, or give -o another name",
+                         at->path, beside);
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: the file cannot be locked (%s); choose another location", at->path,
-                     strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
+                     "%.100s: the lock file %.110s cannot be opened (%s); remove it, or give -o a "
+                     "path in another, writable folder",
+                     at->path, beside, strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
 }
 
 static void unlock(const char *beside, int lock)

@@ -146,13 +146,14 @@ static status check_form(const char *path, const file_place *to, output_form for
         return place_unwritable(path, EISDIR, f);
     if (form == OUTPUT_TEXT && output_is_hdf5(path))
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s: this command writes text, not HDF5; give a name that does not "
-                         "end in %s ('solve' writes HDF5 with --shapes)",
+                         "%.200s: this output is text, not HDF5; give a name that does not end in "
+                         "%s, such as output.txt ('solve --shapes' writes HDF5)",
                          path, strrchr(path, '.'));
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
         return fault_set(
             f, STATUS_REFUSED,
-            "%.200s is %s, but HDF5 requires a regular file; give the name of a file", path,
+            "%.200s is %s, but HDF5 requires a regular file; give a file name such as results.h5",
+            path,
             to->descriptor >= 0 ? "the file of standard output or error" : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
         return place_unwritable(path, errno, f);
@@ -217,7 +218,8 @@ static int is_stored(FILE *stream)
 static status stdout_unwritable(int why, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "standard output cannot be written (%s); redirect it to another location",
+                     "standard output cannot be written (%s); free disk space, or redirect the "
+                     "output to another file",
                      why != 0 ? strerror(why) : "an earlier write failed");
 }
 
@@ -252,9 +254,11 @@ status output_close(output *out, fault *f)
         return STATUS_OK;
     }
     discard(out);
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s; choose another location",
-                     out->to.path, why != 0 ? strerror(why) : "no space left",
-                     out->temporary[0] != '\0' ? "; no file was left" : "");
+    return fault_set(
+        f, STATUS_FAULT,
+        "%.200s cannot be written (%s)%s; free disk space, or give a path on another disk",
+        out->to.path, why != 0 ? strerror(why) : "no space left",
+        out->temporary[0] != '\0' ? "; no file was left" : "");
 }
 
 status output_finish(output *out, status written, fault *f)
@@ -297,7 +301,8 @@ status output_partial(const char *path, char partial[PATH_MAX], fault *f)
 static status folder_fail(const output_folder *out, int why, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.200s: cannot be written (%s); no file was left; choose another location",
+                     "%.200s cannot be written (%s); no file was left; free disk space, or give a "
+                     "path in another, writable folder",
                      out->to.path, why != 0 ? strerror(why) : "no space left");
 }
 
@@ -308,7 +313,7 @@ static status find(const char *path, output_folder *out, fault *f)
     memset(out, 0, sizeof *out);
     if (length == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "the name of an output is empty; give the name of a folder");
+                         "the name of an output folder is empty; give a name such as folder");
     if (length >= sizeof plain)
         return place_unwritable(path, ENAMETOOLONG, f);
     while (length > 1 && path[length - 1] == '/')
@@ -352,10 +357,11 @@ status output_folder_open(const char *path, output_folder *out, fault *f)
     TRY(find(path, out, f));
     if (out->to.kind == PLACE_FILE || out->to.kind == PLACE_STREAM)
         return fault_set(f, STATUS_REFUSED,
-                         "%.200s already exists and is not a folder; give another name", path);
+                         "%.200s already exists and is not a folder; give a new name", path);
     if (out->to.kind == PLACE_FOLDER && !is_empty(out->to.path))
-        return fault_set(f, STATUS_REFUSED,
-                         "%.200s already exists and is not empty; give another name", path);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%.200s already exists and is not empty; give a new name, or empty the folder", path);
     return create(out, f);
 }
 

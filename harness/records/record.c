@@ -22,7 +22,7 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
     if (r->file >= 0 && r->scalar >= 0)
         return STATUS_OK;
     H5Sclose(r->scalar);
-    return fault_set(f, STATUS_FAULT, "out of memory for results");
+    return fault_memory(f, "results");
 }
 
 status record_open(record_file *r, fault *f)
@@ -61,8 +61,8 @@ static status write_image(const record_file *r, const char *path, fault *f)
 {
     if (r->bad)
         return fault_set(f, STATUS_FAULT,
-                         "the results could not be stored in HDF5, probably because memory is "
-                         "full; free memory and run again");
+                         "the results could not be stored in HDF5, probably because the memory is "
+                         "full; close other programs, and run the command again");
     if (path == NULL)
         return STATUS_OK;
     const ssize_t size =
@@ -70,8 +70,7 @@ static status write_image(const record_file *r, const char *path, fault *f)
     char *image = size > 0 ? malloc((size_t)size) : NULL;
     if (image == NULL || H5Fget_file_image(r->file, image, (size_t)size) != size) {
         free(image);
-        return fault_set(f, STATUS_FAULT, "%.200s: out of memory for the contents of the file",
-                         path);
+        return fault_memory(f, "the contents of %.200s", path);
     }
     const status outcome = write_bytes(image, (size_t)size, path, f);
     free(image);
@@ -93,12 +92,13 @@ status record_drop(record_file *r, status outcome)
 static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];
-    status outcome = close_file(r) && !r->bad
-                         ? checksum_of_file(r->to.temporary, line, f)
-                         : fault_set(f, STATUS_FAULT,
-                                     "%.200s: the results could not be written, because the disk "
-                                     "or the memory is full; free some space",
-                                     r->to.to.path);
+    status outcome =
+        close_file(r) && !r->bad
+            ? checksum_of_file(r->to.temporary, line, f)
+            : fault_set(f, STATUS_FAULT,
+                        "%.200s could not be written, because the disk or the memory is full; free "
+                        "disk space or memory, and run the command again",
+                        r->to.to.path);
     if (outcome == STATUS_OK) {
         fseek(r->to.stream, 0, SEEK_END);
         fputs(line, r->to.stream);

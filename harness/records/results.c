@@ -133,10 +133,10 @@ status results_series_summarise(stored_results *r, fault *f)
         if (s == NULL || strcmp(s->name, r->cell[i].name) != 0) {
             s = results_add_series(r);
             if (s == NULL || (s->name = strdup(r->cell[i].name)) == NULL)
-                return fault_set(f, STATUS_FAULT, "out of memory for results");
+                return fault_memory(f, "results");
         }
         if (!take_cell(s, &r->cell[i]))
-            return fault_set(f, STATUS_FAULT, "out of memory for results");
+            return fault_memory(f, "results");
     }
     return STATUS_OK;
 }
@@ -336,16 +336,16 @@ static status take_row(char *line, const char *path, int row, stored_results *ou
     if (take_line(line) && split(line, field)) {
         result_series *s = results_add_series(out);
         if (s == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for results");
+            return fault_memory(f, "results");
         if (take(field, s)) {
             out->limits = out->limits || s->limits > 0;
             return STATUS_OK;
         }
     }
     return fault_set(f, STATUS_FAULT,
-                     "%.120s:%d: the row is damaged or truncated; write the table again with "
-                     "'beamwork compare -o'",
-                     path, row);
+                     "%.120s:%d: the row is damaged or truncated; write the table again, for "
+                     "example with 'beamwork compare results.h5 -o %.120s'",
+                     path, row, path);
 }
 
 status results_table_read(const char *path, FILE *from, stored_results *out, fault *f)
@@ -354,10 +354,10 @@ status results_table_read(const char *path, FILE *from, stored_results *out, fau
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||
         strcmp(line, results_table_head) != 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: the file is neither a result of 'beamwork verify -o' (HDF5) nor "
-                         "a table of 'beamwork compare -o'; give one of these",
+                         "%.120s is neither a results file (HDF5) nor a table written by 'beamwork "
+                         "compare -o'; give a file written by 'beamwork verify -o FILE.h5'",
                          path);
     for (int row = 2; fgets(line, sizeof line, from) != NULL; row++)
         TRY(take_row(line, path, row, out, f));
-    return ferror(from) ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
+    return ferror(from) ? fault_unreadable(f, path, EIO) : STATUS_OK;
 }

@@ -26,10 +26,10 @@ static status sort_cells(const char *path, stored_results *r, fault *f)
         qsort(r->cell, (size_t)r->cells, sizeof *r->cell, compare_cells);
     for (int i = 1; i < r->cells; i++)
         if (results_order(&r->cell[i - 1], &r->cell[i]) == 0)
-            return fault_set(
-                f, STATUS_FAULT,
-                "%.120s: the run %.120s n=%d occurs twice; run 'beamwork verify -o' again", path,
-                r->cell[i].name, r->cell[i].elements);
+            return fault_set(f, STATUS_FAULT,
+                             "%.120s: the run %.120s n=%d occurs twice; remove the file, and "
+                             "repeat the command that wrote it",
+                             path, r->cell[i].name, r->cell[i].elements);
     return STATUS_OK;
 }
 
@@ -39,10 +39,10 @@ static status sort_series(const char *path, stored_results *r, fault *f)
         qsort(r->series, (size_t)r->seriess, sizeof *r->series, compare_series);
     for (int i = 1; i < r->seriess; i++)
         if (compare_series(&r->series[i - 1], &r->series[i]) == 0)
-            return fault_set(
-                f, STATUS_FAULT,
-                "%.120s: the series %.120s occurs twice; run 'beamwork verify -o' again", path,
-                r->series[i].name);
+            return fault_set(f, STATUS_FAULT,
+                             "%.120s: the series %.120s occurs twice; remove the file, and repeat "
+                             "the command that wrote it",
+                             path, r->series[i].name);
     return STATUS_OK;
 }
 
@@ -74,7 +74,7 @@ status results_read_any(const char *path, const char *experiment, stored_results
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     const status outcome = read_sorted(path, experiment, from, out, f);
     fclose(from);
     if (outcome != STATUS_OK)
@@ -89,8 +89,8 @@ status results_read(const char *path, stored_results *out, fault *f)
         return STATUS_OK;
     results_free(out);
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: the file contains a sweep, which only 'beamwork compare' reads; give "
-                     "a file of 'beamwork verify -o'",
+                     "%.120s: the file contains a sweep, which only 'beamwork compare' can read; "
+                     "give a file written by 'beamwork verify -o FILE.h5'",
                      path);
 }
 
@@ -99,8 +99,9 @@ enum { NAME = 200 };
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: %s%.120s is missing or damaged; run 'beamwork verify -o' again", path,
-                     where, what);
+                     "%.120s: %s%.120s is missing or damaged; remove the file, and repeat the "
+                     "command that wrote it",
+                     path, where, what);
 }
 
 typedef struct case_point_row {
@@ -257,7 +258,7 @@ static status take_cell(const char *path, const char *of, const case_tables *t, 
         return results_case_damaged(path, name, "", f);
     result_cell *cell = results_add(out);
     if (cell == NULL || (cell->name = strdup(name)) == NULL || !take_values(t, row, next, cell))
-        return fault_set(f, STATUS_FAULT, "out of memory for results");
+        return fault_memory(f, "results");
     cell->elements = row->elements;
     memcpy(cell->status, row->status, sizeof cell->status);
     cell->work[WORK_ITERATIONS] = row->iterations;
@@ -429,14 +430,14 @@ static status check_version(const char *path, hid_t file, fault *f)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version))
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: the file is not a results file; write one with 'beamwork verify "
-                         "-o' or 'beamwork sweep -o'",
+                         "%.120s is not a results file; give a file written by 'beamwork verify -o "
+                         "FILE.h5' or 'beamwork sweep -o FILE.h5'",
                          path);
     if (version >= SCHEMA_OLDEST && version <= SCHEMA_VERSION)
         return STATUS_OK;
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: the results have version %ld, but this program reads versions %d to "
-                     "%d; run 'beamwork verify -o' again",
+                     "%.120s: the results have format version %ld, but this version of beamwork "
+                     "reads %d to %d; remove the file, and repeat the command that wrote it",
                      path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
 }
 
@@ -480,8 +481,8 @@ static status read_file(const char *path, const char *experiment, hid_t file, st
         return experiment == NULL
                    ? results_case_damaged(path, "", "cases", f)
                    : fault_set(f, STATUS_FAULT,
-                               "%.120s: the file contains no results of '%.40s' that can be "
-                               "compared; verify, bench and sweep write such results",
+                               "%.120s contains no results of '%.40s' that can be compared; give "
+                               "--experiment verify, bench or sweep, whichever wrote the file",
                                path, experiment);
     const status outcome = read_group(path, at, out, f);
     H5Gclose(at);
@@ -496,7 +497,9 @@ static status results_hdf5_read(const char *path, const char *experiment, stored
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: cannot be read as HDF5; run 'beamwork verify -o' again", path);
+                         "%.120s: the file is not valid HDF5; remove the file, and repeat the "
+                         "command that wrote it",
+                         path);
     const status outcome = read_file(path, experiment, file, out, f);
     H5Fclose(file);
     return outcome;

@@ -52,8 +52,9 @@ static double number(const sweep_file *s, sweep_column which, size_t at)
 static status damaged(const sweep_file *s, const char *what, fault *f)
 {
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: %.120s is missing or damaged; run 'beamwork sweep -o' again", s->path,
-                     what);
+                     "%.120s: %.120s is missing or damaged; remove the file, and repeat the "
+                     "command that wrote it",
+                     s->path, what);
 }
 
 static void free_file(sweep_file *s)
@@ -305,8 +306,8 @@ static status check_size(const sweep_file *s, fault *f)
     const double cells = (double)s->points * (s->formulations * (double)s->meshes + 1);
     snprintf(what, sizeof what, "%.120s: %.0f runs", s->path, cells);
     if (cells > most_items)
-        return fault_set(f, STATUS_REFUSED, "%s are too many; compare sweeps of fewer points",
-                         what);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s are more than can be compared; compare sweeps of fewer points", what);
     return memory_check(
         two * cells *
             (double)(sizeof(result_cell) + NAME + (size_t)s->quantities * sizeof(result_value)),
@@ -321,7 +322,7 @@ static status add_point(const sweep_file *s, int which, stored_results *out, fau
     for (int i = 0; i < s->formulations; i++)
         for (int k = 0; k < s->meshes && good; k++)
             good = add_mesh(s, (size_t)which * (size_t)s->formulations + (size_t)i, k, text, out);
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the runs of a sweep");
+    return good ? STATUS_OK : fault_memory(f, "the runs of a sweep");
 }
 
 static status read_file(sweep_file *s, stored_results *out, fault *f)
@@ -331,13 +332,13 @@ static status read_file(sweep_file *s, stored_results *out, fault *f)
     table_reader_attribute_count(s->at, KEPT_SWEEP_MARK, &version);
     if (version != VERSION)
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: the sweep has version %ld, but this program reads version %d; "
-                         "run 'beamwork sweep -o' again",
+                         "%.120s: the sweep has format version %ld, but this version of beamwork "
+                         "reads version %d; remove the file, and repeat the command that wrote it",
                          s->path, version, VERSION);
     if ((bad = read_request(s, out)) != NULL || (bad = read_lists(s)) != NULL)
         return damaged(s, bad, f);
     if (s->word == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the choices of a sweep");
+        return fault_memory(f, "the choices of a sweep");
     if ((bad = read_columns(s)) != NULL)
         return damaged(s, bad, f);
     TRY(check_size(s, f));

@@ -104,7 +104,9 @@ const char *place_leaf(const char *path)
 
 status place_unwritable(const char *path, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s cannot be written (%s); give a path in an existing, writable folder "
+                     "with free space",
                      path, strerror(why));
 }
 
@@ -174,7 +176,7 @@ status place_find(const char *path, file_place *out, fault *f)
     memset(out, 0, sizeof *out);
     if (length == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "the name of an output is empty; give the name of a file");
+                         "the name of an output file is empty; give a name such as results.h5");
     if (length >= sizeof out->path)
         return place_unwritable(path, ENAMETOOLONG, f);
     memcpy(out->path, path, length + 1);

@@ -138,7 +138,7 @@ static status candidates_of(const scene *s, const rule_subject *where, const rul
         types++;
     ranked *of = malloc(((size_t)types + 1) * sizeof *of);
     if (of == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+        return fault_memory(f, "a choice");
     for (int i = 0; i < types; i++) {
         const element_type *type = registry_formulations[i];
         if (!formulations_is_new(type) && type->misprint == NULL && can_run(s, type, other))
@@ -222,7 +222,7 @@ static status begin(candidate_run *r, const cell_request *request, const formula
     r->former = calloc((size_t)quantities + 1, sizeof *r->former);
     r->raw = calloc((size_t)quantities + 1, sizeof *r->raw);
     if (r->last.of_each == NULL || r->former == NULL || r->raw == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+        return fault_memory(f, "a choice");
     for (int i = 0; i < quantities; i++)
         r->last.of_each[i] = NAN;
     return STATUS_OK;
@@ -404,7 +404,7 @@ status default_choice_both(const cell_request *request, const rule_subject *wher
     TRY(find(request->scene, where, rules, count, &all, out->why_formulation, f));
     candidate_run *of = malloc(((size_t)all.count + 1) * sizeof *of);
     if (of == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+        return fault_memory(f, "a choice");
     for (; begun < all.count && outcome == STATUS_OK; begun++) {
         formulation one;
         formulation_default(all.type[begun], &one);

@@ -16,8 +16,8 @@ FILE *derive_text_file(fault *f)
     FILE *text = tmpfile();
     if (text == NULL)
         fault_set(f, STATUS_FAULT,
-                  "a temporary file for the scene cannot be created (%s); make sure that /tmp is "
-                  "writable and not full",
+                  "a temporary file for the scene cannot be created (%s); make /tmp writable, and "
+                  "free space there",
                   strerror(errno));
     return text;
 }
@@ -30,12 +30,11 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
         data_place("reference", folder);
     const int length =
         snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
-    return length < PATH_MAX
-               ? STATUS_OK
-               : fault_set(
-                     f, STATUS_FAULT,
-                     "%.60s...: the path is too long; set BEAMWORK_REFERENCE to a shorter path",
-                     out);
+    return length < PATH_MAX ? STATUS_OK
+                             : fault_set(f, STATUS_FAULT,
+                                         "%.60s...: the path is too long; set the environment "
+                                         "variable BEAMWORK_REFERENCE to a shorter path",
+                                         out);
 }
 
 typedef struct script {
@@ -59,7 +58,8 @@ static status start(const derive_question *q, script *s, fault *f)
             close(error[i]);
         }
         fault_set(f, STATUS_FAULT,
-                  "the deriving program cannot be started (%s); close other programs",
+                  "the deriving program cannot be started (%s); close other programs, and run the "
+                  "command again",
                   strerror(why));
         return STATUS_FAULT;
     }
@@ -83,7 +83,8 @@ static status start(const derive_question *q, script *s, fault *f)
     s->errors = fdopen(error[0], "r");
     if (s->output != NULL && s->errors != NULL)
         return STATUS_OK;
-    fault_set(f, STATUS_FAULT, "the output of the deriving program cannot be read (%s)",
+    fault_set(f, STATUS_FAULT,
+              "the output of the deriving program cannot be read (%s); run the command again",
               strerror(errno));
     return STATUS_FAULT;
 }
@@ -113,7 +114,7 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     while (fgets(line, sizeof line, from) != NULL) {
         derived_value *more = realloc(*out, ((size_t)*count + 1) * sizeof *more);
         if (more == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for derived values");
+            return fault_memory(f, "derived values");
         *out = more;
         derived_value *v = &more[*count];
         char *rest = line;
@@ -172,8 +173,9 @@ static status derive_requested(const derive_question *q, derived_value **out, in
     *count = 0;
     if (access(q->path, R_OK) != 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the programs that derive reference values are missing; run from "
-                         "a clone, or set BEAMWORK_REFERENCE",
+                         "%.200s: the programs that derive reference values are missing; run "
+                         "beamwork from a clone, or set the environment variable "
+                         "BEAMWORK_REFERENCE to the folder 'reference' of a clone",
                          q->path);
     const status outcome = derive(q, &s, out, count, f);
     stop(&s);

@@ -263,7 +263,7 @@ status evaluation_begin(const sweep *s, truths *t, evaluation *out, fault *f)
         count += s->point[s->series[i].point].scene.quantities;
     out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
     if (out->verdict == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+        return fault_memory(f, "verdicts");
     return check_units(s, t, f);
 }
 

@@ -367,7 +367,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
             t->rows--;
             for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
                 free(all[k]);
-            return fault_set(f, STATUS_FAULT, "out of memory for reference values");
+            return fault_memory(f, "reference values");
         }
     return STATUS_OK;
 }
@@ -472,7 +472,7 @@ status sweep_unsupported(const char *key, const char *missing, const char *name,
 {
     return fault_set(f, STATUS_REFUSED,
                      "%.60s does not support %.160s, which %.60s requires; choose another "
-                     "formulation",
+                     "formulation, such as -f collocation",
                      key, missing, name);
 }
 
@@ -505,9 +505,8 @@ status narrow_to(sweep *s, const char *select, fault *f)
     kept k = {.point = last,
               .quantity = calloc((size_t)s->point[last].scene.quantities + 1, 1),
               .series = calloc((size_t)s->seriess + 1, 1)};
-    const status outcome = k.quantity != NULL && k.series != NULL
-                               ? narrow(s, select, &k, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for a selection");
+    const status outcome = k.quantity != NULL && k.series != NULL ? narrow(s, select, &k, f)
+                                                                  : fault_memory(f, "a selection");
     free(k.quantity);
     free(k.series);
     return outcome;

@@ -21,7 +21,7 @@ static status keep_sample(follow_state *w, double value, int requested, follow_s
         w->shapes = kept != NULL ? kept : w->shapes;
         if (more == NULL || kept == NULL) {
             follow_match_free(s);
-            fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+            fault_memory(f, "curves of modes");
             return STATUS_FAULT;
         }
         w->room = room;
@@ -31,7 +31,7 @@ static status keep_sample(follow_state *w, double value, int requested, follow_s
     *out = (follow_sample){.value = value, .requested = requested};
     out->frequency = calloc(2 * modes + 1, sizeof *out->frequency);
     if (out->frequency == NULL) {
-        fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+        fault_memory(f, "curves of modes");
         return STATUS_FAULT;
     }
     out->match = out->frequency + modes;
@@ -81,10 +81,11 @@ static status step_to(follow_state *w, double to, fault *f)
         at = c->sample[c->samples - 1].value;
         target = least >= follow_sure ? to : at + (target - at) / 2;
         if (fabs(target - at) < least_step && at != to)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "a mode is lost beyond %.6g, where the computed modes represent only "
-                             "%.2f of its shape; start elsewhere, or request more frequencies",
-                             at, least);
+            return fault_set(
+                f, STATUS_NOT_CONVERGED,
+                "a mode cannot be followed beyond %.6g, where the computed modes represent only "
+                "%.2f of its shape; begin at another value, or request more frequencies",
+                at, least);
     }
     return STATUS_OK;
 }
@@ -309,7 +310,7 @@ static coverage *row_of(const sweep *s, evaluation *j, const series *one, fault 
             return &j->coverage[i];
     coverage *more = realloc(j->coverage, (size_t)(j->coverages + 1) * sizeof *more);
     if (more == NULL) {
-        fault_set(f, STATUS_FAULT, "out of memory for coverages");
+        fault_memory(f, "coverages");
         return NULL;
     }
     j->coverage = more;

@@ -18,7 +18,7 @@ static status allocate(int modes, int rows, follow_shapes *out, fault *f)
     out->shape = calloc((size_t)modes * (size_t)rows + 1, sizeof *out->shape);
     return out->frequency != NULL && out->match != NULL && out->shape != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for modes");
+               : fault_memory(f, "modes");
 }
 
 void follow_match_free(follow_shapes *s)
@@ -57,8 +57,7 @@ static status follow_match_first(const state_matrices *s, int modes, follow_shap
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
     status outcome = allocate(modes, s->M.rows, out, f);
     if (outcome == STATUS_OK)
-        outcome = work != NULL ? first(s, out, work)
-                               : fault_set(f, STATUS_FAULT, "out of memory for modes");
+        outcome = work != NULL ? first(s, out, work) : fault_memory(f, "modes");
     free(work);
     return outcome;
 }
@@ -136,12 +135,12 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
         return fault_set(
             f, STATUS_REFUSED,
             "the structure has %d free coordinates here but had %d before, so the modes cannot be "
-            "compared; vary a parameter that does not change the coordinates",
+            "compared; vary a parameter that does not change supports or the number of members",
             s->M.rows, before->rows);
     }
     status outcome = allocate(before->modes, before->rows, out, f);
     if (w.mode == NULL || w.taken == NULL)
-        outcome = fault_set(f, STATUS_FAULT, "out of memory for modes");
+        outcome = fault_memory(f, "modes");
     if (outcome == STATUS_OK) {
         w.product = w.mode + modes * n;
         w.share = w.product + modes * n;
@@ -185,9 +184,9 @@ static status solve_at(follow_state *w, double value, cell_result *cell,
         if (cell->solve.systems.state[i].analysis == w->analysis)
             *state = &cell->solve.systems.state[i];
     if (*state == NULL || w->out->modes == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "there are no modes to follow; add a modal analysis with frequencies as quantities");
+        return fault_set(f, STATUS_REFUSED,
+                         "there are no modes to follow; add an analysis with 'modal' to the scene, "
+                         "and frequencies as quantities");
     return STATUS_OK;
 }
 
@@ -274,7 +273,7 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
 {
     follow_event *more = realloc(c->event, ((size_t)c->events + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
+        return fault_memory(f, "curves of modes");
     c->event = more;
     more[c->events++] = *e;
     return STATUS_OK;

@@ -143,14 +143,14 @@ status overview_make(const sweep *s, const evaluation *j, overview *out, fault *
     *out = (overview){.row = calloc(most, sizeof(void *)),
                       .column = calloc(most, sizeof *out->column)};
     if (out->row == NULL || out->column == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the overview");
+        return fault_memory(f, "the overview");
     find_rows(s, out);
     find_columns(s, out, 0);
     if (out->columns > MOST_COLUMNS)
         find_columns(s, out, 1);
     out->cell = calloc((size_t)(out->rows * out->columns) + 1, sizeof *out->cell);
     if (out->cell == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the overview");
+        return fault_memory(f, "the overview");
     fill(s, j, out);
     return STATUS_OK;
 }
@@ -191,9 +191,11 @@ int overview_shown(const overview *o, int row)
     return o->rows <= MOST_ROWS || !overview_passes(o, row);
 }
 
+static const char seal[] = "beamwork-seal";
+
 static void write_line(size_t size, uint32_t sum, char out[CHECKSUM_LENGTH + 1])
 {
-    snprintf(out, CHECKSUM_LENGTH + 1, "beamwork-seal %016zx %08x\n", size, (unsigned)sum);
+    snprintf(out, CHECKSUM_LENGTH + 1, "%s %016zx %08x\n", seal, size, (unsigned)sum);
 }
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1])
@@ -209,7 +211,7 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     uint32_t sum = 0;
     FILE *from = fopen(path, "rb");
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     while ((got = fread(buffer, 1, PIECE, from)) > 0) {
         sum = crc_add(sum, buffer, got);
         size += got;
@@ -217,7 +219,7 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
     const int bad = ferror(from);
     fclose(from);
     write_line(size, sum, out);
-    return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
+    return bad ? fault_unreadable(f, path, EIO) : STATUS_OK;
 }
 
 status checksum_read(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f)
@@ -228,7 +230,7 @@ status checksum_read(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f)
     if (from != NULL)
         fclose(from);
     out[good ? CHECKSUM_LENGTH : 0] = '\0';
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path);
+    return good ? STATUS_OK : fault_unreadable(f, path, errno);
 }
 
 /* Computes the checksum of all bytes except the last CHECKSUM_LENGTH bytes, which are copied to
@@ -263,14 +265,16 @@ status checksum_check(const char *path, fault *f)
     uint32_t sum;
     FILE *from = fopen(path, "rb");
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     const long body = read_body(from, &sum, tail);
     fclose(from);
     write_line(body >= 0 ? (size_t)body : 0, sum, right);
     return body >= 0 && strcmp(tail, right) == 0
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT,
-                           "%.120s: the file is not a file of this program, or it is truncated, "
-                           "damaged or altered; write it again",
-                           path);
+               : fault_set(f, STATUS_FAULT, "%.120s %s", path,
+                           body >= 0 && strncmp(tail, seal, strlen(seal)) == 0
+                               ? "is damaged, or was altered after beamwork wrote it; copy it "
+                                 "again, or remove it and repeat the command that wrote it"
+                               : "was not written by beamwork, or its end is missing; give a "
+                                 "complete file that beamwork wrote");
 }

@@ -221,7 +221,7 @@ static status read_all(table_columns *c, rule **out)
         return columns_broken(c, "rule");
     rule *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
     if (all == NULL)
-        return fault_set(c->f, STATUS_FAULT, "out of memory for known deviations");
+        return fault_memory(c->f, "known deviations");
     for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
         TRY(columns_read(c, &field[k], all, sizeof *all));
     for (int i = 0; i < c->rows; i++)
@@ -311,8 +311,7 @@ status columns_read(const table_columns *r, const columns_field *field, void *ba
     const size_t size = field->is_text ? sizeof(char *) : sizeof(double);
     char *all = calloc((size_t)r->rows + 1, size);
     if (all == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for column %s of %s", field->column,
-                         r->name);
+        return fault_memory(r->f, "column %s of %s", field->column, r->name);
     const status outcome = field->is_text
                                ? columns_strings(r, field->column, (char **)(void *)all)
                                : columns_numbers(r, field->column, H5T_NATIVE_DOUBLE, all);
@@ -329,7 +328,7 @@ static status accept_all(table_columns *c)
         return columns_broken(c, "formulation");
     char **name = calloc((size_t)c->rows + 1, sizeof *name);
     if (name == NULL)
-        return fault_set(c->f, STATUS_FAULT, "out of memory for accepted formulations");
+        return fault_memory(c->f, "accepted formulations");
     const status outcome = columns_strings(c, "formulation", name);
     for (int i = 0; i < c->rows; i++) {
         if (outcome == STATUS_OK)

@@ -28,7 +28,7 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     if (i >= 0)
         report(p, w, i);
     if (i == WORKER_NO_MEMORY)
-        return fault_set(f, STATUS_FAULT, "out of memory for results");
+        return fault_memory(f, "results");
     if (i != WORKER_ENDED)
         return STATUS_OK;
     if (worker_handle_end(w, self, one))
@@ -111,7 +111,7 @@ static status run_parallel(const sweep_request *request, workload *w, cell_pool 
 static status check_all_done(const workload *w, fault *f)
 {
     if (w->out_of_memory)
-        return fault_set(f, STATUS_FAULT, "out of memory for measuring rounding scatter");
+        return fault_memory(f, "measuring rounding scatter");
     if (w->finished < w->due)
         return fault_set(
             f, STATUS_FAULT,

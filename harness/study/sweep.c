@@ -95,7 +95,7 @@ static status add_point(sweep *s, const case_type *type, const double value[],
 {
     sweep_point *more = realloc(s->point, (size_t)(s->points + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for parameter points");
+        return fault_memory(f, "parameter points");
     s->point = more;
     sweep_point *p = &s->point[s->points++];
     memset(p, 0, sizeof *p);
@@ -184,7 +184,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
 {
     series *more = realloc(s->series, (size_t)(s->seriess + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for series");
+        return fault_memory(f, "series");
     s->series = more;
     series *one = &s->series[s->seriess++];
     const sweep_point *p = &s->point[index];
@@ -318,7 +318,7 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
 {
     char *requested = calloc((size_t)s->point[index].scene.quantities + 1, 1);
     if (requested == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a selection");
+        return fault_memory(f, "a selection");
     const status outcome = plan_series(request, t, s, index, words, requested, f);
     plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, requested);
@@ -333,7 +333,7 @@ static status alloc_cells(sweep *s, fault *f)
             continue;
         s->series[i].cell = calloc((size_t)s->series[i].meshes + 1, sizeof *s->series[i].cell);
         if (s->series[i].cell == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for results");
+            return fault_memory(f, "results");
     }
     return STATUS_OK;
 }

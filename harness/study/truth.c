@@ -159,7 +159,7 @@ status truth_index_make(truths *t, fault *f)
     if (first == NULL || next == NULL) {
         free(first);
         free(next);
-        return fault_set(f, STATUS_FAULT, "out of memory for reference values");
+        return fault_memory(f, "reference values");
     }
     truth_index_free(t);
     t->first = first;
@@ -309,7 +309,7 @@ static status read_loose(const table_columns *r, const case_type *type, loose_co
                          truth *row)
 {
     if (loose->parameters == NULL || loose->hash == NULL || loose->elements == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for reference values");
+        return fault_memory(r->f, "reference values");
     TRY(read_columns(r, loose, row));
     return fill_rows(r, type, loose, row);
 }

@@ -18,7 +18,7 @@ status truths_reserve(truths *t, int more, fault *f)
     const size_t room = (size_t)t->rows + (size_t)more;
     truth *row = realloc(t->row, (room + 1) * sizeof *row);
     if (row == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for reference values");
+        return fault_memory(f, "reference values");
     t->row = row;
     t->room = (int)room;
     return STATUS_OK;
@@ -252,7 +252,7 @@ static status add_row(truths *t, const case_type *type, const scene_truth *one, 
                                 one->kind,        one->model,  one->convention, one->source};
     for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
         if ((*to[i] = strdup(from[i])) == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for reference values");
+            return fault_memory(f, "reference values");
     return STATUS_OK;
 }
 
@@ -288,7 +288,7 @@ static status read_all(table_columns *c, glossary_entry **out)
         return columns_broken(c, "term");
     glossary_entry *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
     if (all == NULL)
-        return fault_set(c->f, STATUS_FAULT, "out of memory for the glossary");
+        return fault_memory(c->f, "the glossary");
     for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
         TRY(columns_read(c, &field[k], all, sizeof *all));
     return STATUS_OK;

@@ -234,7 +234,7 @@ static status add(deviations_reader *r, double largest, fault *f)
     char *const *field = r->row->field;
     rule *more = realloc(r->t->rule, ((size_t)r->t->rules + 1) * sizeof *more);
     if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for known deviations");
+        return fault_memory(f, "known deviations");
     r->t->rule = more;
     snprintf(from, sizeof from, "%.200s:%d", r->m->file, r->row->line);
     rule *one = &more[r->t->rules++];
@@ -252,7 +252,7 @@ static status add(deviations_reader *r, double largest, fault *f)
     if (one->name == NULL || one->formulations == NULL || one->cases == NULL ||
         one->condition == NULL || one->quantities == NULL || one->verdicts == NULL ||
         one->predicted == NULL || one->cause == NULL || one->proof == NULL || one->from == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for known deviations");
+        return fault_memory(f, "known deviations");
     check_condition(r, one);
     return STATUS_OK;
 }
@@ -377,7 +377,7 @@ static status add_row(int number, char *line, int columns, user_table *out, mist
     row.text = more != NULL ? strdup(line) : NULL;
     out->row = more != NULL ? more : out->row;
     if (row.text == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %.100s", m->file);
+        return fault_memory(f, "%.100s", m->file);
     const int fields = line_split(row.text, row.field, columns);
     if (fields != columns) {
         mistakes_add(m, number, 1,
@@ -421,7 +421,7 @@ static status read_lines(FILE *from, const char *columns, char **line, user_tabl
             TRY(add_row(number, text, count_columns(columns), out, m, f));
     }
     if (ferror(from))
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", m->file, strerror(errno));
+        return fault_unreadable(f, m->file, errno);
     if (number == 0)
         mistakes_add(m, 1, 1, "the file is empty; its first line must be %s", columns);
     return STATUS_OK;
@@ -435,7 +435,7 @@ status user_table_read(const char *path, const char *columns, user_table *out, m
     *m = (mistakes){.file = path};
     FILE *from = line_open(path);
     if (from == NULL)
-        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+        return fault_unreadable(f, path, errno);
     const status outcome = read_lines(from, columns, &line, out, m, f);
     free(line);
     fclose(from);

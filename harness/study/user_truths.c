@@ -195,7 +195,7 @@ static status add(truths_reader *r, const truth *row, fault *f)
     int good = 1;
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         good &= (*text[i] = strdup(*text[i])) != NULL;
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for reference values");
+    return good ? STATUS_OK : fault_memory(f, "reference values");
 }
 
 static status add_rows(const user_table *rows, truths_reader *r, fault *f)

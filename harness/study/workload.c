@@ -76,7 +76,7 @@ status workload_begin(const sweep_request *request, sweep *s, workload *out, fau
     if (out->tasks == NULL || out->done == NULL || out->open == NULL || out->state == NULL ||
         out->again == NULL || out->waits == NULL || out->after == NULL || out->board == NULL ||
         run_cost_order(s, request->jobs, out->tasks) != 0)
-        return fault_set(f, STATUS_FAULT, "out of memory for the list of runs");
+        return fault_memory(f, "the list of runs");
     list_tasks(out);
     return STATUS_OK;
 }

@@ -39,7 +39,7 @@ status abouts_alloc(abouts *a, fault *f)
     outcome_motion *o = a->out;
     o->about = calloc((size_t)a->c->scene->analyses + 1, sizeof *o->about);
     if (o->about == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for states of a motion");
+        return fault_memory(f, "states of a motion");
     for (int i = a->analysis + 1; i < a->c->scene->analyses; i++) {
         const double time = instant_of(a, i);
         if (!isnan(time) && !is_listed(o, time))
@@ -73,7 +73,7 @@ static status take(abouts *a, fault *f)
     const size_t count = (size_t)model_all_coordinates(m);
     to->rate = malloc((2 * count + 1) * sizeof *to->rate);
     if (to->rate == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
+        return fault_memory(f, "a state of a motion");
     to->acceleration = to->rate + count;
     memcpy(to->rate, a->at.v, count * sizeof *to->rate);
     memcpy(to->acceleration, a->at.a, count * sizeof *to->rate);

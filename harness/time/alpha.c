@@ -176,7 +176,7 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     alpha *s = calloc(1, sizeof *s);
     *out = NULL;
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     *out = &s->base;
     *s = (alpha){
         .base = {.order = 3, .adds = 1, .step = step, .free = release},
@@ -189,7 +189,7 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
         .a0 = calloc(4 * n, sizeof(double))};
     s->mean = calloc(s->strains + 1, sizeof *s->mean);
     if (s->a0 == NULL || s->mean == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     s->v0 = s->a0 + n;
     s->inc = s->v0 + n;
     s->weight = s->inc + n;

@@ -258,7 +258,7 @@ static status allocate(conserving *s, fault *f)
         TRY(strain_update_alloc(&s->of.c->eq, &s->strain_update, f));
     s->deformable_values = malloc((size_t)chunk_size(m) * sizeof *s->deformable_values);
     if (s->step == NULL || s->W == NULL || s->deformable_values == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     s->residual = s->step + all;
     s->column = s->residual + all;
     s->row = s->column + all;
@@ -287,7 +287,7 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     TRY(check(request->c->model, f));
     conserving *s = calloc(1, sizeof *s);
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     *out = &s->base;
     s->base = (motion_scheme){.order = 3, .adds = 1, .step = step, .free = release};
     s->of = *request;

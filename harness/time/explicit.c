@@ -89,7 +89,7 @@ static status allocate(explicit_scheme *s, fault *f)
     s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, n);
     gsl_set_error_handler(before);
     if (s->y == NULL || s->stepper == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     s->error = s->y + n;
     s->dydt = s->error + n;
     s->inc = s->dydt + n;
@@ -107,7 +107,7 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     explicit_scheme *s = calloc(1, sizeof *s);
     *out = NULL;
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     *out = &s->base;
     s->base =
         (motion_scheme){.order = 8, .degree = DENSE_OUTPUT_QUINTIC, .step = step, .free = release};
@@ -326,9 +326,8 @@ static status explicit_check(const model *m, const frame_masses *masses, fault *
         return check_joined(m, masses, f);
     int *heavy = calloc(all, sizeof *heavy);
     double *rest = calloc(all, sizeof *rest);
-    status outcome = heavy != NULL && rest != NULL
-                         ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    status outcome =
+        heavy != NULL && rest != NULL ? STATUS_OK : fault_memory(f, "the time integration");
     if (outcome == STATUS_OK)
         mark(m, masses, rest, heavy);
     for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++)
@@ -469,7 +468,7 @@ status work_alloc(const equations *eq, const frame_masses *masses, outer_work *w
         .force = calloc(2 * (size_t)model_all_coordinates(m) + dashpots_room(m), sizeof *w->force),
         .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
     if (w->force == NULL || w->element == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the work of the loads");
+        return fault_memory(f, "the work of the loads");
     w->holding = w->force + model_all_coordinates(m);
     w->dashpots = w->holding + model_all_coordinates(m);
     for (int i = 0; i < model_elements(m); i++)

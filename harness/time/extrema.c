@@ -29,7 +29,7 @@ status extrema_alloc(extrema *s, fault *f)
         return STATUS_OK;
     s->one = calloc((size_t)s->count, sizeof *s->one);
     if (s->one == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the extremes of a motion");
+        return fault_memory(f, "the extremes of a motion");
     for (int i = 0, k = 0; i < what->quantities; i++)
         if (extrema_includes(s, &what->quantity[i]))
             begin(s, &s->one[k++], &what->quantity[i]);

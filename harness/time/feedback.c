@@ -14,8 +14,7 @@ status feedback_begin(const equations *eq, fault *f)
     if (!scene_has_feedback(s) || eq->run->feedback != NULL)
         return STATUS_OK;
     eq->run->feedback = calloc((size_t)s->loads, sizeof *eq->run->feedback);
-    return eq->run->feedback != NULL ? STATUS_OK
-                                     : fault_set(f, STATUS_FAULT, "out of memory for feedback");
+    return eq->run->feedback != NULL ? STATUS_OK : fault_memory(f, "feedback");
 }
 
 int feedback_count(const equations *eq)

@@ -131,7 +131,7 @@ static status alloc_empty(const model *m, int spread, frame_masses *out, fault *
     out->warping = calloc((size_t)model_all_coordinates(m) + 1, sizeof *out->warping);
     if (out->mass == NULL || out->warping == NULL) {
         frame_masses_free(out);
-        return fault_set(f, STATUS_FAULT, "out of memory for masses");
+        return fault_memory(f, "masses");
     }
     return STATUS_OK;
 }

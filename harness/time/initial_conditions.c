@@ -168,9 +168,8 @@ status consistent_restart(analysis_context *c, const frame_masses *masses, const
     TRY(stage_alloc(c, masses, &s, f));
     s.begins = 1;
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
-    const status outcome =
-        inc != NULL ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
-                    : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    const status outcome = inc != NULL ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
+                                       : fault_memory(f, "the time integration");
     now->state->path =
         now->time; /* loads after the jump, or after a static path, act from this time on */
     free(inc);

@@ -190,7 +190,7 @@ status massless_drop(const model *m, const frame_masses *all, const model_state 
     const size_t size = (size_t)model_unknowns(m) * sizeof *a;
     double *light = malloc(size + 1);
     if (light == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     turn_axes(m, s, 1, a);
     memcpy(light, a, size);
     const status outcome = massless_motion(m, all, s, light, f);
@@ -300,9 +300,8 @@ status massless_readings(const model *m, const frame_masses *masses, const model
     const scene_quantity *first = NULL;
     double *dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
     *undefined = calloc((size_t)of->quantities + 1, sizeof **undefined);
-    status outcome = dx != NULL && *undefined != NULL
-                         ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    status outcome =
+        dx != NULL && *undefined != NULL ? STATUS_OK : fault_memory(f, "the time integration");
     for (int i = 0; i < of->quantities && outcome == STATUS_OK; i++) {
         const scene_quantity *q = &of->quantity[i];
         if (q->analysis != analysis || q->what.kind != SCENE_RATE ||
@@ -330,9 +329,8 @@ status massive_of(const model *m, const frame_masses *masses, const model_state 
         return STATUS_OK;
     double *dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
     h->light = calloc((size_t)model_first_release(m) * BLOCKS * BLOCK + 1, sizeof *h->light);
-    status outcome = dx != NULL && h->light != NULL
-                         ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    status outcome =
+        dx != NULL && h->light != NULL ? STATUS_OK : fault_memory(f, "the time integration");
     for (int c = 0; c < 3 * BLOCKS && outcome == STATUS_OK; c++)
         outcome = column(m, masses, s, c / 3, c % 3, dx, h, f);
     free(dx);
@@ -524,7 +522,7 @@ static status find_balance(motion_stage *s, const double zero[], double h, motio
 {
     double *moved = calloc((size_t)s->free + 1, sizeof *moved);
     unsigned char *of = calloc((size_t)s->free + 1, 1);
-    status outcome = fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    status outcome = fault_memory(f, "the time integration");
     if (moved != NULL && of != NULL)
         outcome = s->c->run->damping != NULL && mark_overdamped(&s->c->eq, now->state, h, of) > 0
                       ? overdamped_rates(s, zero, h, now, moved, of, f)

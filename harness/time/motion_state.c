@@ -33,14 +33,14 @@ status motion_state_alloc(const model *m, motion_state *out, fault *f)
     if (strains_of(m) > 0) {
         out->strain = calloc(2 * strains_of(m), sizeof *out->strain);
         if (out->strain == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for damping");
+            return fault_memory(f, "damping");
         out->strain2 = out->strain + strains_of(m);
     }
     if (motion_state_ends(m) > 0)
         out->ends = calloc(motion_state_ends(m), sizeof *out->ends);
     if (out->v == NULL || out->a == NULL || out->algorithm == NULL ||
         (motion_state_ends(m) > 0 && out->ends == NULL))
-        return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
+        return fault_memory(f, "a state of a motion");
     return kinematics_state_alloc(m, &out->state, f);
 }
 

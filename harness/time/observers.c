@@ -46,7 +46,7 @@ status observers_alloc(observers *s, fault *f)
     s->one = calloc((size_t)what->quantities + 1, sizeof *s->one);
     s->out->passing = calloc((size_t)what->quantities + 1, sizeof *s->out->passing);
     if (s->one == NULL || s->out->passing == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the states of a motion");
+        return fault_memory(f, "the states of a motion");
     for (int i = 0; i < what->quantities; i++)
         if (is_observed(s, &what->quantity[i]))
             begin(s, &s->one[s->count++], &what->quantity[i]);
@@ -330,7 +330,7 @@ static status copy(const model *m, int analysis, const motion_state *now,
     measure(m, now, out);
     out->value = malloc((outcome_end_values(out) + 1) * sizeof *out->value);
     if (out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the final state of a motion");
+        return fault_memory(f, "the final state of a motion");
     double *to = out->value;
     parts_of(now, &control->extent, out, of);
     for (int i = 0; i < PARTS; i++)

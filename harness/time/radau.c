@@ -152,7 +152,7 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     const size_t all = (size_t)r->all + 1;
     one->inc = calloc(4 * all, sizeof *one->inc);
     if (one->inc == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
+        return fault_memory(f, "the stages of a step");
     TRY(linear_memory_alloc(m, &one->memory, f));
     one->rate = one->inc + all;
     one->v = one->rate + all;
@@ -173,7 +173,7 @@ static status allocate(radau *r, fault *f)
     r->turn = calloc((size_t)model_vertices(r->of.c->model) * STAGES * 18 + 1, sizeof *r->turn);
     if (r->residual == NULL || r->dx == NULL || r->weight == NULL || r->errors == NULL ||
         r->turn == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)
         TRY(allocate_stage(r, &r->stage[i], f));
@@ -192,7 +192,7 @@ status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     radau *r = malloc(sizeof *r);
     *out = NULL;
     if (r == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     memcpy(r, &begin, sizeof *r);
     *out = &r->base;
     const model_size size = model_sizes(request->c->model);

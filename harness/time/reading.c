@@ -342,7 +342,7 @@ status reading_whole(const reading *from, const scene_quantity *q, double *out, 
     const int all = model_all_coordinates(m);
     double *a = malloc(((size_t)all + 1) * sizeof *a);
     if (a == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the forces of a state");
+        return fault_memory(f, "the forces of a state");
     for (int k = 0; k < all; k++)
         a[k] = from->a[k] + damping * from->v[k];
     const status outcome = read_whole(from, q, a, out, f);

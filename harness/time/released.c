@@ -229,7 +229,7 @@ static status kinds_alloc(const model *m, damped_kinds *k, fault *f)
     *k = (damped_kinds){.first = malloc((kinds + 2 * elements) * sizeof(int)),
                         .eta = malloc(elements * sizeof(double))};
     if (k->first == NULL || k->eta == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+        return fault_memory(f, "damping");
     for (size_t i = 0; i < kinds; i++)
         k->first[i] = NONE;
     k->next = k->first + kinds;
@@ -329,7 +329,7 @@ static status fill_matrices(const model *m, double more, damped_kinds *k, run_da
     d->matrix = calloc((size_t)k->count * square + 1, sizeof *d->matrix);
     d->slowest = calloc((size_t)k->count + 1, sizeof *d->slowest);
     if (d->matrix == NULL || d->slowest == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+        return fault_memory(f, "damping");
     for (int i = 0; i < k->count; i++)
         TRY(fill_matrix(m, k->element[i], k->eta[i], d->matrix + (size_t)i * square, &d->slowest[i],
                         f));
@@ -343,7 +343,7 @@ static status matrices_alloc(const model *m, double more, run_damping *d, fault 
     d->which = malloc(((size_t)model_elements(m) + 1) * sizeof *d->which);
     d->none = calloc(2 * all + 1, sizeof *d->none);
     if (d->which == NULL || d->none == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+        return fault_memory(f, "damping");
     d->begin = d->none + all;
     const status outcome = fill_matrices(m, more, &kinds, d, f);
     free(kinds.first);
@@ -450,7 +450,7 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
 {
     double *dx = calloc((size_t)model_all_coordinates(m) + 1, sizeof *dx);
     if (dx == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+        return fault_memory(f, "damping");
     in_space(m, s, v, dx);
     for (int i = 0; i < model_elements(m); i++) {
         node_state x[ELEMENT_MAX_NODES];
@@ -517,7 +517,7 @@ status dashpots_at_node(const model *m, const model_state *s, const double v[], 
         return STATUS_OK;
     double *room = calloc(dashpots_room(m), sizeof *room);
     if (room == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for dashpots");
+        return fault_memory(f, "dashpots");
     dashpots_node_force(m, s, rates_of_dashpots(m, s, v, room), node, F);
     free(room);
     return STATUS_OK;

@@ -50,7 +50,7 @@ static status alloc(const equations *eq, const frame_masses *masses, const motio
     s->inc = calloc(6 * all, sizeof *s->inc);
     s->odd = calloc(all, sizeof *s->odd);
     if (s->inc == NULL || s->odd == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for small motions");
+        return fault_memory(f, "small motions");
     s->zero = s->inc + all;
     s->force = s->zero + all;
     s->column = s->force + all;
@@ -352,7 +352,7 @@ static status add_damping(small_motions *s, fault *f)
     double *change = calloc(((size_t)model_elements(s->m) + (size_t)model_springs(s->m)) * ROOM + 1,
                             sizeof *change);
     if (change == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for small motions");
+        return fault_memory(f, "small motions");
     change_jacobians(s, change);
     add_rates(s, change);
     free(change);

@@ -21,7 +21,7 @@ status stage_alloc(analysis_context *c, const frame_masses *masses, motion_stage
     s->residual = calloc(all, sizeof *s->residual);
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+        return fault_memory(f, "the time integration");
     if (c->options->newton != NEWTON_DISPLACEMENT)
         TRY(strain_update_alloc(&c->eq, &s->strain_update, f));
     TRY(assemble_pattern_in_time(c->model, c->run->patterns, &pattern, f));
@@ -182,7 +182,7 @@ status strain_update_alloc(const equations *eq, strain_update **out, fault *f)
         return STATUS_OK;
     c = malloc(sizeof *c + strains * sizeof *c->before);
     if (c == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the strains of a step");
+        return fault_memory(f, "the strains of a step");
     c->eq = eq;
     c->m = m;
     c->before = (double *)(c + 1);

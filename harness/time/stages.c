@@ -79,7 +79,7 @@ static status make(const equations *eq, const frame_masses *masses, const sparse
     out->diagonal = malloc((columns + 1) * sizeof *out->diagonal);
     if (out->whole.column == NULL || out->whole.row == NULL || out->whole.value == NULL ||
         out->diagonal == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
+        return fault_memory(f, "the stages of a step");
     fill(eq, single, frame_of, masses, out, out->whole.row);
     return STATUS_OK;
 }
@@ -91,9 +91,8 @@ status stages_alloc(const equations *eq, const frame_masses *masses, const spars
     memset(out, 0, sizeof *out);
     out->n = model_unknowns(m);
     int *frame_of = malloc(((size_t)model_unknowns(m) + 1) * sizeof *frame_of);
-    const status outcome = frame_of != NULL
-                               ? make(eq, masses, single, frame_of, out, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for stages");
+    const status outcome =
+        frame_of != NULL ? make(eq, masses, single, frame_of, out, f) : fault_memory(f, "stages");
     free(frame_of);
     return outcome;
 }
@@ -312,7 +311,7 @@ status body_mass_alloc(const model *m, body_mass *out, fault *f)
     out->M = calloc(2 * n * (n + 1) + (size_t)model_all_coordinates(m) + 1, sizeof *out->M);
     if (n == 0 || out->index == NULL || out->M == NULL) {
         body_mass_free(out);
-        return fault_set(f, STATUS_FAULT, "out of memory for masses");
+        return fault_memory(f, "masses");
     }
     out->used = out->index + n;
     out->rest = out->M + n * n;

@@ -25,9 +25,7 @@ status dense_output_alloc(const equations *eq, dense_output *b, fault *f)
     b->m = m;
     b->part = calloc(PARTS * all, sizeof *b->part);
     b->room = calloc(3 * all, sizeof *b->room);
-    return b->part != NULL && b->room != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
+    return b->part != NULL && b->room != NULL ? STATUS_OK : fault_memory(f, "the time integration");
 }
 
 void dense_output_free(dense_output *b)
@@ -305,7 +303,7 @@ status stations_alloc(stations *s, fault *f)
             calloc((size_t)s->c->scene->quantities * (size_t)path->stations, sizeof *s->out->slope);
     return s->out->at_station != NULL && (s->out->slope != NULL || !s->slopes)
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for states of a motion");
+               : fault_memory(f, "states of a motion");
 }
 
 void stations_free(stations *s)
@@ -330,7 +328,7 @@ static status keep(stations *s, const motion_state *at, const double balance[SCE
     outcome_instant *to = &s->out->at_station[s->out->path.reached];
     to->rate = malloc(2 * bytes);
     if (to->rate == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
+        return fault_memory(f, "a state of a motion");
     to->acceleration = to->rate + bytes / sizeof(double);
     memcpy(to->rate, at->v, bytes - sizeof(double));
     memcpy(to->acceleration, at->a, bytes - sizeof(double));

@@ -297,7 +297,7 @@ class Solve(ProgramTest):
         self.assertRegex(text, r"\A-f \S+: .*\nelastica, ")
         text = self.answered("solve", "elastica", "-f", "beamw", "-n", "3").stdout
         self.assertTrue(text.startswith("elastica, beamw\n"), text)
-        self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
+        self.refused(2, "one formulation and one mesh", "solve", "elastica", "-f", "beamw", "-n", "1,2")
 
     def test_the_theory_that_the_case_asks_for(self):
         record = self.record("solve", "shear_column")

@@ -107,7 +107,7 @@ class Choice(ProgramTest):
 
     def test_status_where_values_change(self):
         done = self.answered("solve", "deep_beam", "-f", "beamw:mass=lumped", "-k", "frequency_9", "--error", "1e-9", code=1)
-        self.assertIn("was requested; use -n 2048, or a larger --error", done.stderr)
+        self.assertIn("was requested; use more elements, such as -n 2048, or a larger --error", done.stderr)
         self.assertRegex(done.stdout, r"\nnot_converged: no convergence on [^:]*frequency_9 still\s+changed\s+by")
         self.assertRegex(done.stdout, r"\nfrequency_9 +282\.36")
         self.answered("solve", "deep_beam", "-f", "beamw", "-k", "frequency_9", "--error", "1%")

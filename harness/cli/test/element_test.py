@@ -95,10 +95,10 @@ class Refused(Loaded):
         self.assertNotIn("loaded", run("solve", "elastica", "-f", "min").stderr)
 
     def test_no_shared_object(self):
-        self.refuse(self.folder / "none.so", "none.so", "give the path of a shared object")
+        self.refuse(self.folder / "none.so", "none.so", "give the path of an existing shared object")
         text = self.folder / "text.so"
         text.write_text("text", encoding="ascii")
-        self.refuse(text, "give the path of a shared object")
+        self.refuse(text, "give the path of an existing shared object")
 
     def test_no_symbol(self):
         self.refuse(self.compiled("int other;"), "beamwork_element")
@@ -125,7 +125,7 @@ class Refused(Loaded):
 
     def test_strains_without_stresses(self):
         made = self.example((".stress = stress,", ""))
-        self.refused(2, "'stress' together", "solve", *CASE, "-n", "2", "--element", made)
+        self.refused(2, "'strain' or 'stress' is missing; give both", "solve", *CASE, "-n", "2", "--element", made)
 
 
 class Hostile(Loaded):

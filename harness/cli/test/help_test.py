@@ -275,6 +275,68 @@ class Printed(ProgramTest):
             "verify", "-k", "=elastica and =default and =beamw", "--into", "a folder", "-o", "r.h5"))
         self.assertEqual(shlex.split(hint[1]), ["beamwork", "merge", "a folder"])
 
+    def test_remedies_for_files(self):
+        work = ("-k", "=elastica and =default and =beamw")
+        self.answered("verify", *work, "-o", self.folder / "results.h5")
+        table = self.folder / "t.csv"
+        self.answered("compare", self.folder / "results.h5", "-o", table)
+        text = table.read_text(encoding="utf-8")
+        table.write_text(text[:-20], encoding="utf-8")
+        line = self.failed_line("compare", table, self.folder / "results.h5")
+        self.run_quoted(line)
+        self.assertEqual(table.read_text(encoding="utf-8"), text)
+        theirs = self.folder / "theirs.csv"
+        theirs.write_text("# beamwork-import: 1\n# program: T\n# case: elastica\n"
+                          "quantity,unit,elements,value\nw_over_L,1,2,0.3\n", encoding="utf-8")
+        line = self.failed_line("verify", "-k", "=elastica and =default and =w_over_L", "--imported", theirs)
+        self.run_quoted(line)
+        self.assertIn("theirs.h5", line)
+        self.answered("verify", "-k", "=elastica and =default and =w_over_L", "-f", "beamw", "--imported", self.folder / "theirs.h5")
+        line = self.failed_line("merge", self.folder)
+        self.assertIn("--into", line)
+        self.answered("verify", *work, "--into", self.folder)
+        self.answered("merge", self.folder)
+        line = self.failed_line("verify", *work, "--into", self.folder, "-o", "r.h5")
+        self.run_quoted(line.replace("FILE", "merged.h5"))
+
+    def test_remedies_for_options(self):
+        """Each message names an option with a value that makes the same command valid."""
+        for words, remedy in ((("sweep", "elastica", "--vary", "load=1..2", "-f", "beamw", "-n", "1"), r"=\S+/4"),
+                              (("sweep", "elastica", "--vary", "load=1..2", "--design", "sobol", "-f", "beamw", "-n", "1"),
+                               r"--points \d+"),
+                              (("sweep", "elastica", "--vary", "load", "-f", "beamw", "-n", "1"), r"=\S+/4"),
+                              (("sweep", "elastica", "--vary", "load=1..2/3:foo", "-f", "beamw", "-n", "1"), r"=\S+:log"),
+                              (("bench", "elastica", "--error", "1%", "-f", "beamw"), "--against [a-z]+"),
+                              (("verify", "elastica"), "-k elastica"),
+                              (("compare", "a", "b", "--threshold", "foo"), "error=0.01,floor=1e-8,work=0.02"),
+                              (("import", "x.csv"), "'beamwork import .*'"),
+                              (("export", "elastica"), "--to calculix"),
+                              (("plot", "elastica", "-f", "beamw", "-n", "1,2"), r"-n \d+")):
+            line = self.failed_line(*words)
+            self.assertRegex(line, remedy)
+            given = re.search(remedy, line)[0]
+            if words[0] == "sweep" and given[0] == "=":
+                done = run(*(f"load{given}" if word.startswith("load") else word for word in words))
+            elif words[0] in ("sweep", "bench"):
+                done = run(*words, *given.split())
+            elif words[0] == "verify":
+                done = run("verify", *given.split(), "-f", "beamw")
+            else:
+                continue
+            self.assertEqual((done.returncode, done.stderr), (0, ""), (line, done.stderr))
+
+    def run_quoted(self, line):
+        command = re.search(r"'(beamwork .*?)'[ ,;\n]", line)[1]
+        done = subprocess.run(command.replace("beamwork", shlex.quote(PROGRAM), 1), shell=True, text=True, check=False,
+                              cwd=self.folder, capture_output=True, env=environment())
+        self.assertEqual(done.returncode, 0, (command, done.stderr))
+
+    def failed_line(self, *words):
+        done = run(*words)
+        self.assertIn(done.returncode, (2, 4), done)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        return done.stderr
+
     def refused_line(self, *words):
         done = run(*words)
         self.assertEqual(done.returncode, 2, done)

@@ -153,8 +153,8 @@ class Machine(ProgramTest):
             with open("/dev/full", "w", encoding="ascii") as full:
                 done = run(*arguments, stdout=full, env=HELP)
             self.assertEqual(done.returncode, 4, (arguments, done))
-            self.assertRegex(done.stderr, r"^beamwork: standard output cannot be written \(.+\); redirect it to another "
-                             r"location\n$",
+            self.assertRegex(done.stderr, r"^beamwork: standard output cannot be written \(.+\); free disk space, or "
+                             r"redirect the output to another file\n$",
                              arguments)
 
     def test_small_files(self):

@@ -37,7 +37,7 @@ class Places(Folder):
     def test_no_places(self):
         for verb, work in WORK.items():
             for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
-                self.refused(2, "the name of an output is empty", verb, *work, *option, "")
+                self.refused(2, "the name of an output f", verb, *work, *option, "")
                 self.refused(4, "cannot be written", verb, *work, *option, self.folder)
                 self.refused(4, "cannot be written", verb, *work, *option,
                              self.folder / "none" / "file")
@@ -57,7 +57,7 @@ class Places(Folder):
         for verb, options in TEXT.items():
             for option in options:
                 for name in ("a.h5", "a.HDF5") if (verb, option) not in BOTH else ():
-                    self.refused(2, ("writes text, not HDF5", "with --shapes"), verb, *WORK[verb], option, self.folder / name)
+                    self.refused(2, ("this output is text, not HDF5", "solve --shapes"), verb, *WORK[verb], option, self.folder / name)
         self.assertEqual(os.listdir(self.folder), [])
         for verb, option in BOTH:
             path = self.folder / f"{verb}.HDF5"
@@ -74,7 +74,7 @@ class Places(Folder):
             done = subprocess.run(f"{shlex.join([PROGRAM, *work, '-o', str(path)])} >&-", shell=True, check=False,
                                   stderr=subprocess.PIPE, text=True)
             self.assertEqual((done.returncode, done.stderr),
-                             (4, "beamwork: standard output cannot be written (Bad file descriptor); redirect it to another location\n"))
+                             (4, "beamwork: standard output cannot be written (Bad file descriptor); free disk space, or redirect the output to another file\n"))
             with h5py.File(path) as file:
                 self.assertTrue(list(file))
         path = self.folder / "s.json"
@@ -311,9 +311,9 @@ omit: [trapeze, wagner_moments, wagner_torque]
                                      "last [m] collocation, n = 1"])
 
     def test_refusals(self):
-        for words, options in (("no quantity has a curve", ("-k", "=first")),
-                               ("plot writes only .png", ("-o", "arm.jpg")),
-                               ("plot accepts only one number of elements", ("-n", "2,4"))):
+        for words, options in (("no quantity can be drawn as a curve", ("-k", "=first")),
+                               ("plot writes figures (.png", ("-o", "arm.jpg")),
+                               ("plot accepts one number of elements", ("-n", "2,4"))):
             self.assertIn(words, self.plot("-f", "beamw", *options, code=2).stderr)
 
 

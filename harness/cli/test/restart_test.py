@@ -146,8 +146,8 @@ class RestartTest(SceneCase):
         again = ("solve", "--scene", path, "--restart", ends)
         for code, words, options in (
                 (2, "is at 1 s; add a later station", (*again, "--set", "end=1")),
-                (2, "the number of elements with which it began", (*again, "-n", 4)),
-                (2, "with the formulation and the number of elements", (*again, "-f", "collocation")),
+                (2, "the number of elements of the file", (*again, "-n", 4)),
+                (2, "give the formulation and the number of elements", (*again, "-f", "collocation")),
                 (2, "without --all-dofs", (*again, "--all-dofs")),
                 (2, "integrator: conserving", (*again, "--set", "how=conserving")),
                 (2, "step: 0.01,", (*again, "--set", "step=0.01")),
@@ -156,7 +156,7 @@ class RestartTest(SceneCase):
                 (2, "remove -k, --shapes, --matrices, --save-state and", (*again, "--follow", "mass=0.1..0.2/2")),
                 (2, "require a motion, but the scene has none", ("solve", "elastica", "--restart", ends)),
                 (2, "require a motion, but the scene has none", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
-                (4, "truncated", ("solve", "--scene", path, "--restart", cut)),
+                (4, "its end is missing", ("solve", "--scene", path, "--restart", cut)),
                 (4, "not written by --save-state", ("solve", "--scene", path, "--restart", TRUTHS)),
                 (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):
             with self.subTest(words=words):

@@ -83,7 +83,7 @@ class Scarce(ProgramTest):
 
     def test_results_of_workers(self):
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
-        self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
+        self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results; close other programs, or reduce the problem, for example with fewer elements\n", ["tiny.yaml"]))
 
 
 if __name__ == "__main__":

@@ -130,7 +130,7 @@ class Verify(SpreadTest):
         second.write_bytes(content)
         done = self.merged(code=5)
         for path in (first, second):
-            self.assertIn(f"{path}: the file is truncated, damaged or altered; delete it (this batch counts as missing)",
+            self.assertIn(f"{path} is truncated, damaged or altered; delete it, and start its shard again (this batch counts as missing)",
                           done.stderr)
         self.assertIn(" 2 computed now", self.shard("1/1", "verify", "-k", CASES).stdout)
         self.is_as_alone()
@@ -208,7 +208,7 @@ class Killed(SpreadTest):
             out, errors = child.communicate()
         self.assertEqual((child.returncode, out), (5, ""))
         self.assertRegex(errors, r"^beamwork: interrupted: \d+ of \d+ batches of shard 1/1 are "
-                         "missing; start the shard again\n$")
+                         "missing; start the shard again with the same command\n$")
         self.assertEqual([name for name in self.names() if not name.endswith(".batch")], [])
 
 
@@ -226,20 +226,20 @@ class Others(SpreadTest):
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.folder / "alone.h5"))
         scene.write_text(SCENE.replace("0.1, unit", "0.2, unit"))
-        self.refused(2, ["other reference values, scenes or formulations"], "merge", self.folder / "parts")
+        self.refused(2, ["other reference values, scene files or formulations"], "merge", self.folder / "parts")
 
     def test_refused(self):
         parts = self.folder / "parts"
         for words, arguments in (
                 (["K/N"], ["--shard", "3/2", "--into", parts]),
-                (["--into FOLDER"], ["--shard", "1/2"]),
+                (["--into batches"], ["--shard", "1/2"]),
                 (["beamwork merge"], ["--into", parts, "-o", self.folder / "r.h5"]),
                 (["give only one"], ["--into", parts, "--from", parts]),
                 (["--partial requires"], ["--partial"])):
             self.refused(2, words, "verify", "-k", "elastica", *arguments)
         for verb in ("bench", "converge", "stress"):
             self.refused(2, ["--into"], verb, "--into", parts)
-        self.refused(2, ["no folder is given"], "merge")
+        self.refused(2, ["merge requires the folders of --into"], "merge")
         self.refused(4, ["nowhere", "cannot be read"], "merge", self.folder / "nowhere")
-        self.refused(2, ["contains no batches"], "merge", self.folder)
+        self.refused(2, ["contains no batch that can be read"], "merge", self.folder)
         self.assertFalse(parts.exists())

@@ -109,13 +109,13 @@ static void foreign(void)
     fill(&of);
     const shard_work right = of.w.w;
     of.w.w.build = "build 2";
-    is_refused(&of, "another build (build 1; this build is build 2)");
+    is_refused(&of, "another build of beamwork (build 1; this build is build 2)");
     of.w.w = right;
     of.w.w.request = "some";
     is_refused(&of, "another request (numbers all)");
     of.w.w = right;
     of.w.w.plan = "0123";
-    is_refused(&of, "other reference values, scenes or formulations");
+    is_refused(&of, "other reference values, scene files or formulations");
     of.w.w = right;
     of.w.w.batches = NUMBERS_BATCHES - 1;
     is_refused(&of, "remove the file");
@@ -130,7 +130,7 @@ static void foreign(void)
     batch_name(stem, 4, name);
     const folder_entry other = folder_path(&of.of, name);
     gsl_test(rename(of.path.text, other.text) != 0, "in the place of another");
-    is_refused(&of, "contains batch 4 of 40, which differs from the name");
+    is_refused(&of, "contains batch 4 of 40, which does not match the name");
     folder_remove(&of.of);
 }
 
@@ -169,7 +169,7 @@ static void nowhere(void)
              "no folder: %s", f.text);
     batch_store_free(&s);
     gsl_test(batch_store_first(of.path, &label, &f) != STATUS_REFUSED ||
-                 strstr(f.text, "--shard K/N and --into") == NULL,
+                 strstr(f.text, "that was written with --into") == NULL,
              "an empty folder: %s", f.text);
     gsl_test(numbers_shard(&w, deep.text, 0, 1, &done, &f) != STATUS_FAULT ||
                  strstr(f.text, "cannot be created") == NULL,

@@ -127,7 +127,7 @@ class Experiments(ProgramTest):
         for path in (damaged, other):
             before = path.read_bytes()
             for words in (VERIFY, *ASKED.values()):
-                self.refused(2, "give another name", *words, "-o", path)
+                self.refused(2, "would be overwritten, but it is damaged or is not a results file", *words, "-o", path)
             self.assertEqual(path.read_bytes(), before)
 
     def test_a_sweep_alone(self):
@@ -158,13 +158,13 @@ class Experiments(ProgramTest):
     def test_held(self):
         with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
+            self.refused(2, "is in use by another beamwork run", *ASKED["sweep"], "-o", self.path)
         with open(self.path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
-            self.refused(2, "another program is writing to this file", *VERIFY, "-o", self.path)
+            self.refused(2, "is being written by another program", *VERIFY, "-o", self.path)
         (self.folder / "results.h5.lock").unlink(missing_ok=True)
         (self.folder / "results.h5.lock").mkdir()
-        self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)
+        self.refused(4, "results.h5.lock cannot be opened", *ASKED["stress"], "-o", self.path)
 
     def test_text_still(self):
         path = self.folder / "stress.csv"

@@ -239,12 +239,13 @@ static void axis_tests(void)
     ends_are_exact();
     shares();
     is_refused("widht=1..2/3", "did you mean 'width'");
-    is_refused("width", "NAME=A..B/N");
-    is_refused("width=", "NAME=A..B/N");
+    is_refused("width", "NAME=1..2/4");
+    is_refused("width=", "NAME=1..2/4");
     is_refused("width=1..20/3", "outside its range");
     is_refused("width=1..11/3", "outside its range");
     is_refused("width=1,20", "outside its range");
-    is_refused("width=1mm..2/3", "write width=A..B/N with numbers A and B in m, without the unit");
+    is_refused("width=1mm..2/3",
+               "write a range such as width=1..2/4, with numbers in m, without the unit");
     is_refused("width=1..2/2.5", "whole number");
     is_refused("width=1..2/0", "whole number");
     is_refused("width=1..1/2", "a single value");

@@ -214,11 +214,11 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
             self.assertIn(word, told)
 
     def test_first_line(self):
-        self.refuse(self.speaker(first="said['damping'] = 1"), "'damping' in its first line", "give true or false")
+        self.refuse(self.speaker(first="said['damping'] = 1"), "key 'damping' of its first line", "give true or false")
         for more in "", "body += body[:280]", "body *= 3":
             self.breaks(self.speaker(first="said['damping'] = True", at=f"if what == 1: {more or 'pass'}"),
-                        "bytes instead of 576: with 'damping' true, the answer to prepare is C, then V")
+                        "bytes instead of 576; with 'damping' true, answer prepare with C, then V")
         self.breaks(self.speaker(first="said['damping'] = 'only V'", at="if what == 1: body *= 2"),
-                    "an answer has 576 bytes instead of 288", "with 'only V', it is V")
+                    "an answer has 576 bytes instead of 288", "with 'only V', answer with V")
         self.refuse(self.speaker(first="said.update(damping=True, gives='energy'); del said['strains']"),
-                    "this requires strains")
+                    "give strains (e, or e,J, or e,J,H")

@@ -156,4 +156,4 @@ class OwnLoads(Speaker):
                                     ("return place, ", "return abs(place), ", "line is not analytic")):
             self.refused(1, told, "solve", "--scene", path, "-n", 1, "-f", "own_loads_py", "--element",
                          self.python(before, after), env=WITH_MODULES, silent=False)
-        self.refuse(self.speaker(first="said['line'] = 'yes'"), "'line' in its first line", "give true or false")
+        self.refuse(self.speaker(first="said['line'] = 'yes'"), "key 'line' of its first line", "give true or false")

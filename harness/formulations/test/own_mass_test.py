@@ -137,8 +137,8 @@ class OwnMass(Speaker):
 
     def test_first_line(self):
         for word, told in (("'yes'", "give vibration or motion"), ("1", "give vibration or motion")):
-            self.refuse(self.speaker(first=f"said['inertia'] = {word}"), "'inertia' in its first line", told)
-        self.refuse(self.speaker(first="said.update(inertia='motion', offers=['shear'])"), "this requires mass")
+            self.refuse(self.speaker(first=f"said['inertia'] = {word}"), "key 'inertia' of its first line", told)
+        self.refuse(self.speaker(first="said.update(inertia='motion', offers=['shear'])"), "add mass to 'offers'")
         self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is only for elements with two nodes")
 
     def test_asked_only_where_it_is_brought(self):

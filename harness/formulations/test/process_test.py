@@ -362,7 +362,7 @@ class Mistakes(OctaveTest):
         self.told(1, ["NaN or Inf"], ("c = cos(", "c = NaN * cos("))
 
     def test_unknown_word(self):
-        self.told(2, ["'limitz' in its first line"], ("'limits'", "'limitz'"))
+        self.told(2, ["key 'limitz' of its first line"], ("'limits'", "'limitz'"))
 
     def test_printed(self):
         done = self.answered("solve", "elastica", "-f", NAME, "-n", "2", "--element",
@@ -371,7 +371,7 @@ class Mistakes(OctaveTest):
         self.assertNotIn("ans", done.stdout)
 
     def test_printed_before(self):
-        self.told(2, ["began with 'x = 3', which is not a line of JSON"], ("1;", "x = 3"))
+        self.told(2, ["began with 'x = 3' instead of a line of JSON"], ("1;", "x = 3"))
 
     def test_ends(self):
         self.told(1, [f"formulation {NAME}: its process ended with status 3"],

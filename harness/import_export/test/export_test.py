@@ -99,16 +99,16 @@ class Decks(ExportTest):
         plain = cantilever(1.0)
         wrong = {
             "warp": plain.replace(", warping: fixed", ""),
-            "member bar: wall 0 (0: the first wall) is oblique": plain.replace(
+            "member bar: wall number 1 of the section is oblique": plain.replace(
                 RECTANGLE, "points: {a: [0, 0], b: [0.1, 0.1], c: [0.1, 0.2]}, walls: [{from: a, "
                 "to: b, thickness: 1e-3}, {from: b, to: c, thickness: 1e-3}]"),
             "remove 'given'": plain.replace(RECTANGLE, CHANNEL + ", given: {Iw: 1e-8}"),
             "rectangles and straight walls": plain.replace(
                 RECTANGLE, "tube: {diameter: 10e-3, thickness: 1e-3}"),
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
-            "on members": plain.replace("force: [1.0, 0, 0], on: tip",
+            "along members": plain.replace("force: [1.0, 0, 0], on: tip",
                                         "distributed: [1, 0, 0], on: bar"),
-            "push: weight and loads on members": plain.replace("force: [1.0, 0, 0], on: tip",
+            "push: weight and loads along members": plain.replace("force: [1.0, 0, 0], on: tip",
                                               "force: [1.0, 0, 0], on: bar, where: 0.5"),
             "one stiffness of a loaded": cantilever(1.0, PATH).replace(
                 "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
@@ -120,7 +120,7 @@ class Decks(ExportTest):
             "dead loads": plain.replace("on: tip", "on: tip, follower: true"),
             "none, two or all": cantilever(1.0, PATH).replace(
                 "at: [0.02, 0.1, 0]", "at: [0.02, 0.1, 0], hold: [rx]"),
-            "corners": plain.replace("members:", "  far: {at: [0.1, 0.1, 0]}\nmembers:").replace(
+            "at which several members end": plain.replace("members:", "  far: {at: [0.1, 0.1, 0]}\nmembers:").replace(
                 "loads:", "  more: {from: tip, to: far, section: bar, y: [0, 1, 0], "
                 "warping: fixed}\nloads:"),
         }
@@ -135,8 +135,8 @@ class Decks(ExportTest):
         self.refused(2, "--to calculix", "export", "--scene", scene)
         self.refused(2, "--to calculix", "export", "--scene", scene, "--to", "abaqus")
         self.refused(2, "a single number", "export", "--scene", scene, "--to", "calculix", "-n", "2,4")
-        self.refused(2, "give 1 to", "export", "--scene", scene, "--to", "calculix", "-n", "401")
-        self.refused(2, "curved", "export", "bend_45", "--to", "calculix")
+        self.refused(2, "give -n a number from 1 to", "export", "--scene", scene, "--to", "calculix", "-n", "401")
+        self.refused(2, "initial curvature", "export", "bend_45", "--to", "calculix")
         self.refused(2, "springs", "export", "sprung_beam", "--to", "calculix")
 
 

@@ -84,12 +84,12 @@ class Import(ProgramTest):
             "C_xy, m/N, 2,,,, 1,": "did you mean 'C_xx'",
             "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
             "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
-            "C_xx_curve, m/N, 2,,,, 1,": "is a curve; give x",
-            "C_zz, m/N, 2,,, 3, 1,": "is not a curve; leave x empty",
+            "C_xx_curve, m/N, 2,,,, 1,": "is a curve, so each value requires its position x",
+            "C_zz, m/N, 2,,, 3, 1,": "is a single value, not a curve",
             "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
-            "C_zz, m/N, 3,,,,,": "value is missing",
+            "C_zz, m/N, 3,,,,,": "the field 'value' is missing or empty",
             "C_thz_Mz, rad/(N m), 2,,,, 1,": "the convention for moments",
-            "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"
+            "C_zz, m/N, 4,,,, 1, -1": "uncertainty is negative"
         }
         said = self.read(HEAD + COLUMNS + "\n".join(bad) + "\n", 2).stderr.splitlines()
         self.assertEqual(len(said), len(bad) + 1)
@@ -104,9 +104,9 @@ class Import(ProgramTest):
                                                                     "did you mean 'warping'"),
                               (("import: 1", "import: 2"), "version '2'"),
                               (("MBDyn 1.7.3, 3-node ", "beamw "),
-                               "is a formulation of this program"), (("# program", "# progrm"),
+                               "has the name of a formulation of beamwork"), (("# program", "# progrm"),
                                                                      "did you mean 'program'"),
-                              (("# case", "# axes: x=y y=y z=z\n# case"), "not a signed permutation"),
+                              (("# case", "# axes: x=y y=y z=z\n# case"), "are not valid; give the program's axis"),
                               (("# case", "# convention: symmetrised\n# case"),
                                "the moments of the case are spatial")):
             self.assertIn(words, self.read(HEAD.replace(*change) + COLUMNS + ROWS, 2).stderr)
@@ -213,7 +213,7 @@ class Import(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("/mine: gone: add the file with --imported", " ".join(done.stdout.split()))
         self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
-        self.refused(2, "--imported-must-pass requires imported results; add --imported FILE.h5", *select,
+        self.refused(2, "--imported-must-pass requires imported results; add --imported theirs.h5", *select,
                      "--imported-must-pass")
         self.refused(2, "no quantity of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
@@ -254,7 +254,7 @@ class Import(ProgramTest):
             "rivals.h5: 1 of 2 series belong to cases or parameters that were not run; the first is elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "have already been read; give them only once", *select, "--imported",
+        self.refused(2, "have already been read from another file", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
         self.refused(2, "is given twice; give it only once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")
@@ -361,7 +361,7 @@ class Import(ProgramTest):
         for change, words in (
             (("column: x", "colum: x"),
              "did you mean 'column'"), (("column: x", "column: ex"),
-                                        "is not a column"), (("label: 9", "label: 7"), "no row of the files matches"),
+                                        "is not a column"), (("label: 9", "label: 7"), "no line of the files matches"),
             (("  u_x", "  u_xq"),
              "map.yaml:13: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
             (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"),

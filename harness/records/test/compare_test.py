@@ -192,7 +192,7 @@ class Compare(ProgramTest):
         self.trouble("threshold", "--threshold", "work=-1", self.old, self.old)
         self.trouble("did you mean 'elastica'", "-k", "elastca", self.old, self.old)
         self.trouble("malformed", "-k", "and", self.old, self.old)
-        self.trouble("two stored runs", self.old)
+        self.trouble("two results files", self.old)
         self.trouble("too many", self.old, self.old, self.old)
 
     def test_impossible_counts(self):
@@ -251,7 +251,7 @@ class Compare(ProgramTest):
         for version in (1, 4):
             done = self.compared(lambda file: file.attrs.modify("schema_version", version))
             self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn(f"the results have version {version}, but this program reads versions 2 to 3", done.stderr)
+            self.assertIn(f"the results have format version {version}, but this version of beamwork reads 2 to 3", done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         done = self.compared(lambda file: file.attrs.modify("schema_version", 2))
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -409,7 +409,7 @@ class StateSpace(Matrices):
         scene = BENT % (2700, SHAKEN, "", "", "", "", "", ALL)
         (self.folder/"scene.yaml").write_text(scene, encoding="utf-8")
         work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "beamw", "-n", 2, "--matrices", self.folder/"new")
-        self.refused(2, "add it", *work, "--reduce", "4")
+        self.refused(2, "add --state-space", *work, "--reduce", "4")
         for text, words in (("4:nix", "no node nix; name nodes"), ("few", "write the number of modes"), ("4;tip", "write the number"),
                             ("4:", "of an interface node is missing; name the node"), ("4:tip,,mid", "of an interface node is missing; name the node"),
                             ("4:tip,mid,tip", "node tip is named twice; name it only once"),
@@ -460,7 +460,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
         apart = float(said.split("at most ")[1].split()[0])
         self.compare(scene, "collocation", 4, 1.01*apart*2**0.5)
         self.assertTrue(1e-6 < apart < 0.1, said)
-        self.refused(2, "add --matrices FOLDER", "solve", "--scene", self.folder/"scene.yaml", "--state-space")
+        self.refused(2, "add, for example, --matrices folder", "solve", "--scene", self.folder/"scene.yaml", "--state-space")
 
 
 class Contents(Matrices):
@@ -516,7 +516,7 @@ class Places(Matrices):
         (there / "mine").write_text("mine", encoding="utf-8")
         self.refused(2, "not empty", *self.WORK, there)
         self.refused(2, "is not a folder", *self.WORK, there / "mine")
-        self.refused(2, "the name of an output is empty", *self.WORK, "")
+        self.refused(2, "the name of an output folder is empty", *self.WORK, "")
         self.refused(4, "cannot be written", *self.WORK, self.folder / "none" / "new")
         self.refused(4, "cannot be written", *self.WORK, self.folder / ("x" * 300))
         self.refused(2, "the same file", *self.WORK, self.folder / "a", "-o", self.folder / "a")

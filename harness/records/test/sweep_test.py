@@ -128,8 +128,8 @@ class Sweeps(ProgramTest):
     def test_trouble(self):
         results = verify("elastica/default and beamw", self.folder / "results.h5")
         for pair in ((self.old, results), (results, self.old)):
-            self.refused(2, "old.h5 is a sweep, but", "compare", *pair)
-        self.refused(2, "has no short table", "compare", self.old, "-o", self.folder / "x.csv")
+            self.refused(2, "old.h5 contains a sweep, but", "compare", *pair)
+        self.refused(2, "there is no short table", "compare", self.old, "-o", self.folder / "x.csv")
         self.refused(4, "a sweep, which only", "verify", "-k", "elastica", "--not-worse-than", self.old)
         for name in ("axes", "quantities", "formulations", "meshes", "points", "reference", "value", "error", "cost", "status",
                      "not_modelled"):
@@ -142,7 +142,7 @@ class Sweeps(ProgramTest):
 
             for change, what in ((drop, name), (empty, "value" if name == "meshes" else name)):
                 self.refused(2, f"{what} is missing or damaged", "compare", self.old, altered_sweep(self.old, self.new, change))
-        self.refused(2, "the sweep has version 7, but this program reads version 1", "compare", self.old,
+        self.refused(2, "the sweep has format version 7, but this version of beamwork reads version 1", "compare", self.old,
                      altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
 
 
@@ -312,5 +312,5 @@ class Hash(ProgramTest):
             self.assertEqual(len(set(self.hashes(change, 1))), 2, change.__name__)
 
     def test_refused(self):
-        self.refused(2, ["not a file of this program"], "compare", "--hash", PROGRAM)
+        self.refused(2, ["was not written by beamwork"], "compare", "--hash", PROGRAM)
         self.refused(2, ["--hash applies to whole files"], "compare", "--hash", self.old, "-k", "beamw")

@@ -120,7 +120,7 @@ class Bench(ProgramTest):
         self.refused(2, "a different model", "bench", "c_column", "-f", "beamw", "--against",
                      "beamw_vlasov", "--error", "1%")
         self.refused(2, "did you mean 'theta'", *work, "1%", "-k", "thetta")
-        self.refused(2, "selects only one formulation", *work, "1%", "-k", "beamw")
+        self.refused(2, "selects only one of the two formulations", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
         """Returns the smallest number of elements for which this mesh and all finer meshes are within the error level,
