@@ -26,6 +26,9 @@ typedef struct stress_output {
     /* in: [history] values of the last accepted state, or NULL; used only by `stress` of a type
      * that the program completes from `force` */
     const double *history;
+    /* in: [strains] stresses of the iteration, which differ from those of e until Newton's method
+     * has converged, or NULL: those of e. The part of C that depends on stresses may use them */
+    const double *state;
 } stress_output;
 
 /* Outputs of `inertia`. */

@@ -88,6 +88,9 @@ static inline void beamw_modified_stress_evaluate(const element_data *d,
                 sum += D[E * k + i] * conjugate[k];
             out->sigma[i] = sum;
         }
+    if (out->state != NULL && out->sigma != NULL)
+        for (int i = 0; i < E; i++)
+            conjugate[i] += out->state[i] - out->sigma[i];
     if (out->C != NULL)
         beamw_modified_stress_stiffness(d, D, conjugate, out->C);
     if (out->residual != NULL)

@@ -57,7 +57,7 @@ module beamwork
   end type
 
   type, bind(c) :: stress_output
-    type(c_ptr) :: energy, sigma, C, residual, memory, history
+    type(c_ptr) :: energy, sigma, C, residual, memory, history, state
   end type
 
   type, bind(c) :: force_output

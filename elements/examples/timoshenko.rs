@@ -33,7 +33,7 @@ pub struct Node { r: [f64; 3], u: [f64; 3], rotation: [f64; 9], a: f64, scalar: 
 #[repr(C)]
 pub struct Strains { e: *mut f64, j: *mut f64, s: *const f64, h: *mut f64, history: *const f64 }
 #[repr(C)]
-pub struct Stresses { energy: *mut f64, sigma: *mut f64, c: *mut f64, residual: *mut f64, memory: *mut f64, history: *const f64 }
+pub struct Stresses { energy: *mut f64, sigma: *mut f64, c: *mut f64, residual: *mut f64, memory: *mut f64, history: *const f64, state: *const f64 }
 
 type Unused = *const c_void; // a function or an array that is not given
 #[repr(C)]

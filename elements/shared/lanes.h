@@ -30,6 +30,7 @@ typedef struct strain_real {
 } strain_real;
 typedef struct stress_real {
     real *energy, *sigma, *C, *residual, *memory;
+    const real *state;
 } stress_real;
 
 /* Largest numbers of nodes, strains and inner unknowns, and size of memory, of a type with lanes.
@@ -155,8 +156,14 @@ lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
 {
     enum { S = LANES_STRAINS };
     double unused[LANES_MEMORY];
-    real at[S], inside[LANES_INNER], energy, sigma[S], C[S * S], residual, memory[LANES_MEMORY];
+    const double *of_state[LANES];
+    real at[S], state[S], inside[LANES_INNER], energy, sigma[S], C[S * S], residual,
+        memory[LANES_MEMORY];
     lanes_gather_arrays(n.strains, run, e, at);
+    for (int lane = 0; lane < run; lane++)
+        of_state[lane] = out[lane].state;
+    if (out->state != NULL)
+        lanes_gather_arrays(n.strains, run, of_state, state);
     if (n.inner > 0)
         lanes_gather_arrays(n.inner, run, inner, inside);
     const real_truth good =
@@ -165,7 +172,8 @@ lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                               .sigma = out->sigma != NULL ? sigma : NULL,
                               .C = out->C != NULL ? C : NULL,
                               .residual = out->residual != NULL ? &residual : NULL,
-                              .memory = out->memory != NULL ? memory : NULL});
+                              .memory = out->memory != NULL ? memory : NULL,
+                              .state = out->state != NULL ? state : NULL});
     int written[LANES];
     for (int lane = 0; lane < LANES; lane++) {
         written[lane] = lane < run && real_holds(good, lane);

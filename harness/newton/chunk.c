@@ -42,6 +42,13 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
+/* Returns the stresses of the state; NULL: they contain forces of dampers within the element, which
+ * no function of the type computes. */
+static const double *stresses_of(const equations *eq, const model_state *s, int element)
+{
+    return eq->run->damping == NULL ? of_strains(eq->m, s->sigma, element) : NULL;
+}
+
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
@@ -74,7 +81,8 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
             &(stress_output){.sigma = w.sigma,
                              .C = w.C,
                              .memory = model_memory(m) > 0 ? w.memory : NULL,
-                             .history = model_history_of(m, s, i)});
+                             .history = model_history_of(m, s, i),
+                             .state = stresses_of(eq, s, i)});
     }
 }
 
@@ -98,9 +106,10 @@ static void strains_together(const model *m, const linear_memory *memory, const 
     model_type(m)->strain_many(count, data, x, out);
 }
 
-static void stresses_together(const model *m, const linear_memory *memory, const model_state *s,
-                              int count, chunk_element element[])
+static void stresses_together(const equations *eq, const linear_memory *memory,
+                              const model_state *s, int count, chunk_element element[])
 {
+    const model *m = eq->m;
     const element_data *data[CHUNK_MOST];
     const double *e[CHUNK_MOST], *inner[CHUNK_MOST];
     stress_output out[CHUNK_MOST];
@@ -117,7 +126,8 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         out[owned] = (stress_output){.sigma = w.sigma,
                                      .C = w.C,
                                      .memory = model_memory(m) > 0 ? w.memory : NULL,
-                                     .history = model_history_of(m, s, i)};
+                                     .history = model_history_of(m, s, i),
+                                     .state = stresses_of(eq, s, i)};
         own[owned++] = k;
     }
     if (owned > 0)
@@ -255,7 +265,7 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
     else
         strains_one_by_one(eq, memory, s, count, element, deformed);
     if (together && model_type(m)->stress_many != NULL && eq->run->free_strain == NULL)
-        stresses_together(m, memory, s, count, element);
+        stresses_together(eq, memory, s, count, element);
     else
         stresses_one_by_one(eq, memory, s, path, count, element);
     if (model_takes_loads(m))

@@ -427,6 +427,25 @@ static void few_iterations(void)
     }
 }
 
+/* Stiff deformations within short elements must not spoil quadratic convergence. */
+static void iterations_do_not_grow(void)
+{
+    enum { FEW = 100, MANY = 2000 };
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const char *name = registry_formulations[i]->name, *const defaults[] = {NULL};
+        cell_result few, many;
+        const status one = run("c_cantilever", name, FEW, defaults, &few),
+                     other = run("c_cantilever", name, MANY, defaults, &many);
+        if (ask_offered(&few.scene, registry_formulations[i])) {
+            gsl_test(one != STATUS_OK || other != STATUS_OK, "%s: c_cantilever is solved", name);
+            gsl_test_int((int)many.counters.iterations, (int)few.counters.iterations,
+                         "%s: iterations with %d elements", name, MANY);
+        }
+        cell_result_free(&few);
+        cell_result_free(&many);
+    }
+}
+
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -570,6 +589,7 @@ static void mechanisms_tests(void)
     threads_change_no_bit();
     from_rest_in_one_step();
     few_iterations();
+    iterations_do_not_grow();
     guesses_change_nothing();
     directions();
     fold_warping();
