@@ -23,7 +23,6 @@ typedef struct arnoldi_result {
     double complex *theta;
     double complex *mode; /* [count x n] eigenvectors of length 1 */
     double *residual;     /* [count] |T x - theta x|/|theta| */
-    long applied;
 } arnoldi_result;
 
 typedef struct arnoldi_problem {
@@ -113,7 +112,6 @@ typedef struct unsymmetric_result {
     double *mode;               /* [count x n] real; zero if they are not requested */
     /* number of slow poles of feedback integrals that are unknown, with an error of INFINITY */
     int lost;
-    long solutions;
 } unsymmetric_result;
 
 /* Smallest relative imaginary part of s^2 that is not a rounding error of a double eigenvalue. */
@@ -241,7 +239,6 @@ typedef struct left_of_axis {
     int nearest;
     /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude */
     double complex mu[LEFT_NEAREST];
-    long solutions;
 } left_of_axis;
 
 /* Counts the eigenvalues. K: factored matrix. weight[n]: diagonal of the metric D. */

@@ -75,7 +75,6 @@ static void take(solver *s, double x[])
     for (int i = 0; i < n; i++)
         q[i] = x[i] / length;
     s->p->apply(s->p->context, q, Tq);
-    s->out->applied++;
     for (int i = 0; i <= k; i++) {
         s->H[i * s->room + k] = dense_dot(n, s->Q + (size_t)i * (size_t)n, Tq);
         s->H[k * s->room + i] = dense_dot(n, q, s->TQ + (size_t)i * (size_t)n);
@@ -117,7 +116,6 @@ static void span(solver *s)
             s->H[i * s->room + k] = Tq[i];
     }
     s->count = n;
-    s->out->applied += n;
 }
 
 static double size_of(const solver *s, int i)
@@ -148,6 +146,7 @@ static status ritz(solver *s, fault *f)
     for (int j = 0; j < k; j++)
         for (int i = 0; i < k; i++)
             s->A[j * k + i] = s->H[i * s->room + j];
+    numerics_work_add_dense(k);
     if (LAPACKE_dgeev(LAPACK_COL_MAJOR, s->left != NULL && s->whole ? 'V' : 'N',
                       has_modes(s) ? 'V' : 'N', k, s->A, k, s->re, s->im, s->left, k, s->z, k) != 0)
         return fault_set(

@@ -50,7 +50,6 @@ static double least_eigenvalue(continuation *p)
             product += x[k] * p->moved[k];
         eigenvalue = 1 / product;
     }
-    p->c->run->counters.solutions += INVERSE_ITERATIONS;
     return eigenvalue;
 }
 

@@ -72,7 +72,6 @@ static status directions(continuation *p, step_record *record, fault *f)
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
     factor_solve(p->n.factor, p->response);
-    p->c->run->counters.solutions++;
     return STATUS_OK;
 }
 
@@ -144,7 +143,6 @@ static status index_of(continuation *p, path_point *out, fault *f)
 {
     left_of_axis left;
     TRY(left_count(p->n.factor, p->n.free, p->weight, &left, f));
-    p->c->run->counters.solutions += left.solutions;
     out->negative = left.count;
     out->nearest = left.nearest;
     for (int i = 0; i < left.nearest; i++)

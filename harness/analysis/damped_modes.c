@@ -53,7 +53,6 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
                                  .decaying = v->damped || v->loops > 0};
         unsymmetric_free(r);
         const status found = poles_solve(v, &p, closed, r, &why);
-        v->c->run->counters.solutions += r->solutions;
         if (found == STATUS_FAULT)
             return fault_set(f, found, "%s", why.text);
         if (found != STATUS_OK && v->loops > 0)
@@ -268,7 +267,6 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
                              .estimate = 1,
                              .decaying = 1};
     const status found = poles_solve(v, &p, closed, r, &why);
-    c->run->counters.solutions += r->solutions;
     return found == STATUS_OK
                ? found
                : fault_set(f, found, "%.200s%s", why.text,

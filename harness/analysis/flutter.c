@@ -45,7 +45,6 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, flutt
     if (s->damped)
         TRY(damping_matrix(&n->c->eq, n->state, 0, &s->C, f));
     const status found = unsymmetric_solve(&p, r, f);
-    n->c->run->counters.solutions += r->solutions;
     return found;
 }
 
@@ -168,7 +167,6 @@ static status count_passed(flutter_check *j, step_record *record, fault *f)
     left_of_axis left;
     int pairs = 0;
     TRY(left_count(j->n.factor, j->n.free, j->n.weight, &left, f));
-    j->n.c->run->counters.solutions += left.solutions;
     for (int i = 0; i < left.nearest; i++)
         pairs += creal(left.mu[i]) < 0 && fabs(cimag(left.mu[i])) > real_part * cabs(left.mu[i]);
     record->by_eigenvalues = left.count >= 0 && (pairs == 0 || left.count % 2 != 0);
@@ -491,7 +489,6 @@ status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *
         fault why = {""};
         int sure = 0;
         const status outcome = arnoldi_solve(&p, &r, &why);
-        out->solutions += r.applied;
         out->nearest = 0;
         if (outcome == STATUS_OK && r.count > 0) {
             out->count = count_of(&r, p.wanted, factor_count(K).determinant, &sure);

@@ -56,7 +56,6 @@ static void solve_direct(vibration *v, const scene_response *r, double w, double
         v->x[N + n + more + l] = cimag(x[v->all + l]);
     }
     factor_solve(v->factor, v->x);
-    v->c->run->counters.solutions++;
     for (int i = 0; i < n; i++)
         x[i] = v->x[i] + I * v->x[N + i];
     for (int l = 0; l < v->loops; l++)

@@ -131,7 +131,7 @@ static status factor_closed(vibration *v, fault *f)
     memset(m->closed + count * all, 0, (size_t)v->loops * all * sizeof *m->closed);
     for (int l = 0; l < v->loops; l++)
         put_loop(v, l);
-    v->c->run->counters.dense_operations += (double)all * (double)all * (double)all;
+    numerics_work_add_dense((double)all);
     const double norm = LAPACKE_zlange(LAPACK_ROW_MAJOR, '1', size, size, m->closed, size);
     const int info = LAPACKE_zgetrf(LAPACK_ROW_MAJOR, size, size, m->closed, size, m->closed_pivot);
     if (info == 0)
@@ -169,7 +169,8 @@ void harmonic_closed_solve(vibration *v, const double complex f[], double comple
             x[k] += m->scale[i] * y[i] * m->V[(size_t)i * n + k];
     for (int l = 0; l < v->loops; l++)
         u[l] = m->balance[2 * l + 1] * y[m->count + l];
-    v->c->run->counters.solutions++;
+    numerics_work_add(
+        &(numerics_work){.solutions = 1, .solved_entries = (double)all * (double)(m->n + all)});
 }
 
 double harmonic_closed_bound(vibration *v, const double complex left_of_f[],

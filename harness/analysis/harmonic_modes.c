@@ -92,7 +92,7 @@ static void whole(const sparse *a, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = a->value[k];
 }
 
-static status all_modes(vibration *v, harmonic_modes *m, fault *f)
+static status all_modes(harmonic_modes *m, fault *f)
 {
     const size_t n = (size_t)m->n;
     if (m->n > MOST_DENSE)
@@ -108,7 +108,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
         whole(&m->M, x);
         info =
             n == 0 ? 0 : LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', m->n, x, m->n, K, m->n, mu);
-        v->c->run->counters.dense_operations += (double)n * (double)n * (double)n;
+        numerics_work_add_dense(n);
     }
     const double none = 16 * (double)n * sqrt((double)n) * DBL_EPSILON;
     for (size_t i = 0; info == 0 && i < n; i++) {
@@ -217,7 +217,7 @@ status harmonic_modes_lowest(vibration *v, harmonic_modes *m, int wanted, fault 
         return no_memory(f);
     TRY(harmonic_modes_blocks(v, m, f));
     TRY(factor_stiffness(v, m, f));
-    return all ? all_modes(v, m, f) : first_modes(v, m, wanted, f);
+    return all ? all_modes(m, f) : first_modes(v, m, wanted, f);
 }
 
 /* Checks the damping. REFUSED: the damping matrix of a spring is not symmetric, although a solution

@@ -59,13 +59,12 @@ static status largest_inner(vibration *v, harmonic_modes *m, fault *f)
 }
 
 /* Adds K^-1 f to V, without the component that V already contains. */
-static void take_static(vibration *v, harmonic_modes *m, const double f[])
+static void take_static(harmonic_modes *m, const double f[])
 {
     const size_t n = (size_t)m->n;
     double *x = m->V + (size_t)m->count * n, *Kx = m->work;
     memcpy(x, f, n * sizeof *x);
     factor_solve(m->factor, x);
-    v->c->run->counters.solutions++;
     const double size = dense_dot(m->n, x, f);
     double left = size;
     for (int pass = 0; pass < 3 && left > 0; pass++) {
@@ -114,7 +113,7 @@ static void couple(const harmonic_modes *m, const double X[], const double solve
         }
 }
 
-static status couplings(vibration *v, harmonic_modes *m, double *X[2], fault *f)
+static status couplings(harmonic_modes *m, double *X[2], fault *f)
 {
     const size_t size = (size_t)m->kept * (size_t)m->n;
     double *solved[2] = {NULL, NULL};
@@ -127,7 +126,6 @@ static status couplings(vibration *v, harmonic_modes *m, double *X[2], fault *f)
     for (int i = 0; i < 2 && outcome == STATUS_OK; i++) {
         memcpy(solved[i], X[i], size * sizeof **solved);
         factor_solve_many(m->factor, m->kept, m->n, solved[i]);
-        v->c->run->counters.solutions += m->kept;
     }
     if (outcome == STATUS_OK) {
         couple(m, X[0], solved[0], m->Cp, m->Cp, m->coupling[0]);
@@ -166,7 +164,7 @@ static status project_all(vibration *v, harmonic_modes *m, double *X[2], fault *
         if (v->inside && isfinite(m->least))
             TRY(largest_inner(v, m, f));
         if (v->damped || v->inside)
-            TRY(couplings(v, m, X, f));
+            TRY(couplings(m, X, f));
     }
     add_ratios(m);
     return STATUS_OK;
@@ -182,7 +180,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
         return no_memory(f_);
     m->V = V;
     for (int i = 0; i < count && !m->complete && m->count < m->n; i++)
-        take_static(v, m, f + (size_t)i * n);
+        take_static(m, f + (size_t)i * n);
     const size_t square = (size_t)m->count * (size_t)m->count;
     double **const block[] = {&m->Kp, &m->Mp, &m->Cp, &m->Bp};
     double *X[2];
@@ -297,7 +295,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
         return harmonic_modes_few(v, f);
     if (v->loops > 0 && m->complete) /* the factors of D are not needed */
         return STATUS_OK;
-    v->c->run->counters.dense_operations += (double)count * (double)count * (double)count;
+    numerics_work_add_dense((double)count);
     if (size == 0)
         return STATUS_OK;
     double condition = 0;
@@ -340,7 +338,8 @@ void harmonic_modes_solve(vibration *v, double complex f[], double complex x[])
     for (int i = 0; i < m->count; i++)
         for (size_t k = 0; k < n; k++)
             x[k] += m->scale[i] * m->y[i] * m->V[(size_t)i * n + k];
-    v->c->run->counters.solutions++;
+    numerics_work_add(&(numerics_work){
+        .solutions = 1, .solved_entries = (double)m->count * (double)(m->n + m->count)});
     if (!m->complete)
         subtract_product(v, x, f);
 }
@@ -355,7 +354,6 @@ static double size_of(vibration *v, const double complex r[])
         im[k] = cimag(r[k]);
     }
     factor_solve_many(m->factor, 2, m->n, m->work);
-    v->c->run->counters.solutions += 2;
     for (int k = 0; k < m->n; k++)
         sum += re[k] * creal(r[k]) + im[k] * cimag(r[k]);
     return fmax(0, sum);

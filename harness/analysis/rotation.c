@@ -193,9 +193,7 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {
     const status found = gyroscopic_solve(problem, result, f);
-    c->run->counters.solutions += result->solutions;
     c->run->counters.factorisations += result->factorisations;
-    c->run->counters.dense_operations += result->dense_operations;
     TRY(found);
     return take_modes(c, result, out, f);
 }

@@ -236,10 +236,6 @@ static void add_counters(const counters *more, counters *to)
     to->steps += more->steps;
     to->rejected_steps += more->rejected_steps;
     to->factorisations += more->factorisations;
-    to->solutions += more->solutions;
-    to->factor_entries += more->factor_entries;
-    to->factor_flops += more->factor_flops;
-    to->dense_operations += more->dense_operations;
     to->negative_pivots =
         to->negative_pivots > more->negative_pivots ? to->negative_pivots : more->negative_pivots;
     to->condition = fmax(to->condition, more->condition);
@@ -324,6 +320,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
                           .options = options != NULL ? options : &defaults,
                           .result = result,
                           .work = &work};
+    const numerics_work before = numerics_work_done();
     memset(result, 0, sizeof *result);
     TRY(run_state_begin(&run, m, c.options->threads, f));
     phases_request(&run.phases, c.options->phases);
@@ -364,6 +361,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     }
     add_counters(&other.run.counters, &run.counters);
     result->counters = run.counters;
+    result->counters.numerics = numerics_work_since(&before);
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

@@ -37,7 +37,6 @@ static void solve(const unsymmetric_solver *s, int transposed, double x[])
         factor_solve_transposed(s->p->K_factor, x);
     else
         factor_solve(s->p->K_factor, x);
-    s->out->solutions++;
 }
 
 /* Computes y = K^-1 M x in scaled coordinates. */

@@ -330,8 +330,6 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     counters *n = &c->run->counters;
     const factor_counts counts = factor_count(out->factor);
     n->factorisations++;
-    n->factor_entries = counts.entries;
-    n->factor_flops += counts.flops;
     context_count_condition(c, out->factor, &out->K);
     return counts.negative_pivots > 0
                ? fault_set(
@@ -430,7 +428,6 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     double correction;
     while (state == REFINEMENT_GOES_ON) {
         TRY(correct(c, s, w, x, &correction, f));
-        c->run->counters.solutions++;
         state = refinement_next(&r, correction);
     }
     if (state == REFINEMENT_ENDS) {

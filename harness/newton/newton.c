@@ -123,7 +123,6 @@ static status meet_conditions(newton_run *n, int count, const model_condition co
             n->dx[k] -= n->column[c * n->all + k] * b[c];
         n->dx[condition[c].unknown] = b[c];
     }
-    n->c->run->counters.solutions += count;
     return STATUS_OK;
 }
 
@@ -185,6 +184,8 @@ static status solve_dense(newton_run *n, model_linearisation *lin, fault *f)
     TRY(uncondensed_system(&n->c->eq, n->state, lin->path, n->dx, lin->conditions, lin->condition,
                            n->dense, n->unknown, n->residual, f));
     phases_lap(&n->c->run->phases, PHASE_ASSEMBLY);
+    numerics_work_add(&(numerics_work){.solutions = 1});
+    numerics_work_add_dense((double)size);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;
     phases_lap(&n->c->run->phases, PHASE_FACTORISATION);
@@ -221,9 +222,6 @@ static status direction(newton_run *n, double path, step_record *record, fault *
     count->factorisations +=
         n->c->options->newton == NEWTON_DENSE ? 1 : counts.factorisations - n->counted;
     n->counted = counts.factorisations;
-    count->solutions++;
-    count->factor_entries = counts.entries;
-    count->factor_flops += counts.flops;
     record->negative_pivots = counts.negative_pivots;
     record->incompatibility = lin.incompatibility;
     return STATUS_OK;
@@ -400,22 +398,16 @@ void context_count_condition(const analysis_context *c, matrix_factor *fa, const
     }
 }
 
-void context_count_solution(const analysis_context *c, const matrix_factor *fa, int fresh,
-                            long *counted)
+void context_count_factorisations(const analysis_context *c, const matrix_factor *fa, long *counted)
 {
     counters *n = &c->run->counters;
     const factor_counts counts = factor_count(fa);
     n->factorisations += counts.factorisations - *counted;
     *counted = counts.factorisations;
-    n->solutions++;
-    n->factor_entries = counts.entries;
-    n->factor_flops += fresh ? counts.flops : 0;
 }
 
 void context_count_eigen(const analysis_context *c, const eigen_result *e)
 {
     counters *n = &c->run->counters;
-    n->solutions += e->solutions;
     n->factorisations += e->factorisations;
-    n->dense_operations += e->dense_operations;
 }

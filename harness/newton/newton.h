@@ -17,11 +17,8 @@
 typedef struct counters {
     long strain_evaluations, stress_evaluations, inertia_evaluations;
     long geometric_evaluations; /* evaluations of geometric stiffness */
-    long iterations, steps, rejected_steps, factorisations, solutions;
-    long factor_entries;
-    double factor_flops;
-    /* sum of n^3 over all eigenvalue problems of size n with dense matrices */
-    double dense_operations;
+    long iterations, steps, rejected_steps, factorisations;
+    numerics_work numerics;
     long negative_pivots; /* largest number of negative pivots of a symmetric tangent at an
                              accepted state */
     /* largest condition estimate of the solved systems (factor_condition); 0: not requested */
@@ -760,11 +757,9 @@ status context_factor(analysis_context *, matrix_factor *, const sparse *K, faul
  * requires symmetry. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
-/* Adds to the counters the work of a solution with a factor. fresh 0: the values of the factors are
- * those of an earlier solution. *counted: number of factorisations of this factor that the counters
- * include; updated by the function. */
-void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
-                            long *counted);
+/* Adds the factorisations of a factor to the counters. *counted: number of factorisations of this
+ * factor that the counters include; updated by the function. */
+void context_count_factorisations(const analysis_context *, const matrix_factor *, long *counted);
 void context_count_eigen(const analysis_context *, const eigen_result *);
 
 enum { TANGENT_COMPONENTS = 6, TANGENT_BORDER = 12 };

@@ -339,7 +339,7 @@ typedef struct bordered {
 
 /* Allocates and factors the bordered system. SINGULAR: the structure is unsupported when the
  * prescribed motion is released. Call bordered_free also after a failure. */
-status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
+status bordered_alloc(node_tangent *t, bordered *out, fault *f);
 void bordered_free(bordered *s);
 
 /* A chain of links, condensed to its two ends, and the expansion of solutions.
@@ -523,7 +523,6 @@ status pieces_fill(const equations *, const model_state *, condensed_member *, d
 void pieces_reduce(const model *, condensed_member *, double x[], double ends[]);
 void pieces_expand(const model *, condensed_member *, const double ends[], double x[]);
 /* Adds the numbers of entries and operations of the factors of the pieces. */
-void pieces_count(const condensed_member *, factor_counts *);
 
 struct condensation {
     const equations *eq;

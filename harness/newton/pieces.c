@@ -224,6 +224,25 @@ static status fill_group(filling *w, piece_group *g, fault *f)
     return STATUS_OK;
 }
 
+/* Returns the work of an elimination, and of the expansion of a solution. */
+static numerics_work work_of(const condensed_member *of)
+{
+    const int c = of->form.joint, rows = piece_rows(&of->form), strains = of->form.strains;
+    double block = 0;
+    for (int k = 0; k < c; k++)
+        block += (double)(rows - 1 - k) * (rows + 1 - k);
+    const double element = (double)strains * rows * (2 * strains + rows + 1),
+                 link = 13.0 * c * c * c; /* products and inverse of chain_add */
+    numerics_work out = {.factor_flops = of->links * link,
+                         .solved_entries = (double)of->links * chain_kept_size(c, c)};
+    for (int i = 0; i < of->groups; i++) {
+        const piece_group *g = &of->group[i];
+        out.solved_entries += (double)g->pieces * g->blocks * piece_kept(&of->form);
+        out.factor_flops += g->pieces * (g->blocks * block + g->elements * element);
+    }
+    return out;
+}
+
 status pieces_fill(const equations *eq, const model_state *s, condensed_member *of, double path,
                    double force[], fault *f)
 {
@@ -233,6 +252,7 @@ status pieces_fill(const equations *eq, const model_state *s, condensed_member *
     for (int i = 0; i < of->groups && outcome == STATUS_OK; i++)
         outcome = fill_group(&w, &of->group[i], f);
     free(w.memory);
+    numerics_work_add(&(numerics_work){.factor_flops = work_of(of).factor_flops});
     return outcome;
 }
 
@@ -307,6 +327,7 @@ void pieces_expand(const model *m, condensed_member *of, const double ends[], do
 {
     const int c = of->form.joint;
     double r[MOST_VALUES], at[2 * CHAIN_JOINT * WIDTH];
+    numerics_work_add(&(numerics_work){.solved_entries = work_of(of).solved_entries});
     chain_expand(of->chain, of->r, ends, of->r);
     for (int n = 0; n < of->groups; n++) {
         const piece_group *g = &of->group[n];
@@ -328,19 +349,5 @@ void pieces_expand(const model *m, condensed_member *of, const double ends[], do
                 if (index[i] != NONE)
                     x[index[i]] = of->r[link * c + i];
         }
-    }
-}
-
-void pieces_count(const condensed_member *of, factor_counts *out)
-{
-    const int c = of->form.joint, rows = piece_rows(&of->form), strains = of->form.strains;
-    double elimination = 0;
-    for (int k = 0; k < c; k++)
-        elimination += (double)(rows - 1 - k) * (rows + 1 - k);
-    const double element = (double)strains * rows * (2 * strains + rows + 1);
-    for (int i = 0; i < of->groups; i++) {
-        const piece_group *g = &of->group[i];
-        out->entries += (long)g->pieces * g->blocks * piece_kept(&of->form);
-        out->flops += g->pieces * (g->blocks * elimination + g->elements * element);
     }
 }

@@ -13,8 +13,7 @@ static int border_place(const border *, int coordinate);
 static void border_fill(border *, int free_count, const sparse *K);
 /* Solves the bordered system in place: x[columns x all]. Fixed and prescribed coordinates do not
  * change. */
-static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
-                           double x[]);
+static void bordered_solve(node_tangent *t, const bordered *s, int columns, double x[]);
 /* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
  * element strains (stiffness_parts_material_product). SINGULAR: the accuracy is insufficient
  * because of rounding. */
@@ -97,7 +96,6 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
                                                 : context_factor(c, t->factor, &t->inside, f);
     const factor_counts counts = factor_count(t->factor);
     n->factorisations++;
-    n->factor_flops += counts.flops;
     n->negative_pivots =
         counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
     return outcome;
@@ -210,7 +208,7 @@ static status respond_all(const equations *eq, node_tangent *t, bordered *s, uns
                           unsigned components, double C[36], fault *f)
 {
     int moving[TANGENT_COMPONENTS], component[TANGENT_COMPONENTS], count = 0;
-    TRY(bordered_alloc(t, &eq->run->counters, s, f));
+    TRY(bordered_alloc(t, s, f));
     for (int k = 0; k < t->coordinates; k++)
         moving[k] = moves(t, k);
     for (int j = 0; j < TANGENT_COMPONENTS; j++)
@@ -218,7 +216,7 @@ static status respond_all(const equations *eq, node_tangent *t, bordered *s, uns
             load_of(t, moving, j, s->solution + count * t->all);
             component[count++] = j;
         }
-    bordered_solve(t, &eq->run->counters, s, count, s->solution);
+    bordered_solve(t, s, count, s->solution);
     for (int c = 0; c < count; c++) {
         double *x = s->solution + c * t->all;
         if (t->refined)
@@ -377,7 +375,7 @@ static void border_fill(border *b, int free_count, const sparse *K)
         }
 }
 
-status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
+status bordered_alloc(node_tangent *t, bordered *out, fault *f)
 {
     const border *b = &t->border;
     const size_t all = (size_t)t->all + 1;
@@ -392,7 +390,6 @@ status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
     out->weight = out->rest + all;
     memcpy(out->Z, b->U, (size_t)(columns * t->free) * sizeof *out->Z);
     factor_solve_many(t->factor, columns, t->free, out->Z);
-    n->solutions += columns;
     for (int i = 0; i < columns; i++)
         for (int j = 0; j < columns; j++)
             out->S[i * b->count + j] = b->W[i * b->count + j] -
@@ -425,10 +422,9 @@ static void add_released(const node_tangent *t, const bordered *s, double x[])
     }
 }
 
-static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[])
+static void bordered_solve(node_tangent *t, const bordered *s, int columns, double x[])
 {
     factor_solve_many(t->factor, columns, t->all, x);
-    n->solutions += columns;
     for (int c = 0; c < columns && t->condensed == NULL && t->border.count > 0; c++)
         add_released(t, s, x + c * t->all);
 }
@@ -450,7 +446,7 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
     metric_of(eq->m, s->weight);
     while (state == REFINEMENT_GOES_ON) {
         residual_of(eq, t, s);
-        bordered_solve(t, &eq->run->counters, s, 1, s->rest);
+        bordered_solve(t, s, 1, s->rest);
         for (int k = 0; k < t->all; k++)
             s->x[k] += s->rest[k];
         state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x, 0));

@@ -83,8 +83,6 @@ factor_counts condensation_count(const condensation *s)
         counts.negative_pivots += s->negative;
     if (s->negative % 2 != 0)
         counts.determinant = -counts.determinant;
-    for (int i = 0; i < s->members; i++)
-        pieces_count(&s->member[i], &counts);
     counts.factorisations = s->factorisations;
     return counts;
 }

@@ -159,7 +159,7 @@ static void candidates_apply(candidates *p, const double x[], double y[])
             refine(p, x, y);
 }
 
-double candidates_scale(candidates *p, long *solutions)
+double candidates_scale(candidates *p)
 {
     enum { POWERS = 6 };
     double *x = p->form, before = 0, largest = 0;
@@ -177,7 +177,6 @@ double candidates_scale(candidates *p, long *solutions)
         if (power < POWERS) {
             candidates_apply(p, x, p->work);
             memcpy(x, p->work, (size_t)p->n * sizeof *x);
-            (*solutions)++;
         }
     }
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
@@ -377,14 +376,13 @@ static void combine(size_t n, size_t count, double Y[], const double C[], double
 
 /* Replaces the candidates by the Ritz vectors of Y = K^-1 s A X. They do not change if LAPACK
  * fails. Work space: Y[count x n], small[2 count^2 + count]. */
-static status replace(candidates *p, double Y[], double small[], long *solutions, fault *f)
+static status replace(candidates *p, double Y[], double small[], fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *A = small, *K = A + count * count, *mu = K + count * count;
     const int m = (int)count;
     for (size_t i = 0; i < count; i++)
         candidates_apply(p, p->x + i * n, Y + i * n);
-    *solutions += m;
     project(p, Y, K, A);
     if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', m, A, m, K, m, mu) != 0)
         return STATUS_OK;
@@ -393,13 +391,13 @@ static status replace(candidates *p, double Y[], double small[], long *solutions
     return candidates_add(p, m, Y, 0, f);
 }
 
-status polish(candidates *p, long *solutions, fault *f)
+status polish(candidates *p, fault *f)
 {
     const size_t n = (size_t)p->n, count = (size_t)p->count;
     double *Y = malloc((count * n + 1) * sizeof *Y),
            *small = calloc(2 * count * count + count + 1, sizeof *small);
     const status outcome = Y != NULL && small != NULL
-                               ? replace(p, Y, small, solutions, f)
+                               ? replace(p, Y, small, f)
                                : fault_memory(f, "%zu vectors of %zu unknowns", count, n);
     free(Y);
     free(small);

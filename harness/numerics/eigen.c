@@ -37,23 +37,22 @@ void eigen_free(eigen_result *r)
 /* Adds candidates from a Lanczos run in the complement of the current candidates. mu[count],
  * Kx[candidates x n]. */
 static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
-                           long *solutions, fault *f)
+                           fault *f)
 {
     const eigen_problem *e = p->problem;
     const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, Kx};
     int found = 0;
     double *x;
-    TRY(lanczos_largest(&l, count, &found, mu, &x, solutions, f));
+    TRY(lanczos_largest(&l, count, &found, mu, &x, f));
     return candidates_take(p, found, x, least, f);
 }
 
-static status run_lanczos(candidates *p, int wanted, double least, long *solutions, fault *f)
+static status run_lanczos(candidates *p, int wanted, double least, fault *f)
 {
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
     double *mu = malloc((size_t)count * sizeof *mu), *Kx = candidates_products(p);
-    const status outcome = mu != NULL && Kx != NULL
-                               ? take_lanczos(p, count, mu, Kx, least, solutions, f)
-                               : fault_memory(f, "%d eigenvectors", count);
+    const status outcome = mu != NULL && Kx != NULL ? take_lanczos(p, count, mu, Kx, least, f)
+                                                    : fault_memory(f, "%d eigenvectors", count);
     free(mu);
     free(Kx);
     return outcome;
@@ -81,8 +80,7 @@ static status count_existing(candidates *p, int enough, double scale, double lea
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
-    const double n = r->n;
-    r->dense_operations += n * n * n;
+    numerics_work_add_dense(r->n);
     return eigen_dense_add((candidates *[]){up, down}, wanted, f);
 }
 
@@ -99,7 +97,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
                              "number of elements",
                              missing, requested, pass);
         candidates_count_rest(p);
-        TRY(run_lanczos(p, missing, least, &r->solutions, f));
+        TRY(run_lanczos(p, missing, least, f));
         missing = requested - p->count;
         if (missing <= 0)
             TRY(candidates_count_missing(p, requested, &missing, r, f));
@@ -122,7 +120,7 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
 static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
                          fault *f)
 {
-    const double scale = wanted > 0 ? candidates_scale(p, &r->solutions) : 0;
+    const double scale = wanted > 0 ? candidates_scale(p) : 0;
     fault why = {""};
     out->rounding += wanted > 0 && scale == 0;
     if (scale == 0)
@@ -155,10 +153,10 @@ static void drop_rounding(candidates *p, eigen_side *out)
         }
 }
 
-static double evaluate(candidates *p, int count, eigen_side *out, long *solutions)
+static double evaluate(candidates *p, int count, eigen_side *out)
 {
     double largest = 0;
-    for (int i = 0; i < count; i++, (*solutions)++) {
+    for (int i = 0; i < count; i++) {
         candidates_evaluate(p, i, &out->residual[i], &out->error[i]);
         largest = fmax(largest, out->error[i]);
     }
@@ -167,19 +165,19 @@ static double evaluate(candidates *p, int count, eigen_side *out, long *solution
 
 /* Computes residuals and errors. If the assembly of K has noticeably changed x^T K x of a candidate
  * and K_product is available, improves the vectors first, which are also affected. */
-static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
+static status improve(candidates *p, int count, eigen_side *out, fault *f)
 {
     enum { SWEEPS = 3 };
     const double acceptable = 1e-6;
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= acceptable) {
-        evaluate(p, count, out, &r->solutions);
+        evaluate(p, count, out);
         return STATUS_OK;
     }
     TRY(candidates_refine(p, count, f));
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        TRY(polish(p, &r->solutions, f));
-        if (evaluate(p, count, out, &r->solutions) <= good)
+        TRY(polish(p, f));
+        if (evaluate(p, count, out) <= good)
             break;
     }
     return STATUS_OK;
@@ -206,7 +204,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
     }
 }
 
-static status store_results(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
+static status store_results(candidates *p, int wanted, eigen_side *out, fault *f)
 {
     const size_t n = (size_t)p->n;
     drop_rounding(p, out);
@@ -215,7 +213,7 @@ static status store_results(candidates *p, int wanted, eigen_side *out, eigen_re
     out->error = calloc((size_t)count + 1, sizeof *out->error);
     if (out->residual == NULL || out->error == NULL)
         return fault_memory(f, "%d eigenvalues", count);
-    TRY(improve(p, count, out, r, f));
+    TRY(improve(p, count, out, f));
     drop_lost(p, count, out);
     for (int i = 0; i < count; i++) {
         for (size_t k = 0; k < n; k++)
@@ -245,8 +243,8 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
     TRY(candidates_alloc(up, e, e->sign, f));
     TRY(candidates_alloc(down, e, -e->sign, f));
     TRY(find(e, up, down, r, f));
-    TRY(store_results(up, e->largest, &r->positive, r, f));
-    TRY(store_results(down, e->smallest, &r->negative, r, f));
+    TRY(store_results(up, e->largest, &r->positive, f));
+    TRY(store_results(down, e->smallest, &r->negative, f));
     const eigen_side *worse = r->positive.status != STATUS_OK ? &r->positive : &r->negative;
     return worse->status == STATUS_OK ? STATUS_OK
                                       : fault_set(f, worse->status, "%s", worse->reason);

@@ -141,6 +141,42 @@ status factor_report_singular(fault *f)
                      "the stiffness matrix is singular; check supports, releases and stiffnesses");
 }
 
+static _Thread_local numerics_work done;
+
+numerics_work numerics_work_done(void)
+{
+    return done;
+}
+
+numerics_work numerics_work_since(const numerics_work *start)
+{
+    return (numerics_work){
+        done.solutions - start->solutions, done.solved_entries - start->solved_entries,
+        done.factor_flops - start->factor_flops, done.dense_operations - start->dense_operations};
+}
+
+void numerics_work_add(const numerics_work *more)
+{
+    done.solutions += more->solutions;
+    done.solved_entries += more->solved_entries;
+    done.factor_flops += more->factor_flops;
+    done.dense_operations += more->dense_operations;
+}
+
+void numerics_work_add_dense(double n)
+{
+    done.dense_operations += n * n * n;
+}
+
+/* Adds the solutions with a factor that is not an operator, whose parts add their own work. */
+static void add_solutions(const matrix_factor *fa, int columns)
+{
+    if (fa->by.solve == NULL)
+        numerics_work_add(
+            &(numerics_work){.solutions = columns,
+                             .solved_entries = (double)columns * (double)factor_count(fa).entries});
+}
+
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
 {
     const double n = fa->n, lost = 0.25;
@@ -158,6 +194,7 @@ status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
         outcome =
             factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
     }
+    done.factor_flops += factor_count(fa).flops;
     if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON &&
         !(lost_part(fa, a, row, column) < lost)) {
         fa->counts.lost = 1;
@@ -177,6 +214,7 @@ void factor_solve(matrix_factor *fa, double x[])
 
 void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[])
 {
+    add_solutions(fa, columns);
     for (int c = 0; c < columns && fa->by.solve != NULL; c++)
         fa->by.solve(fa->by.context, 0, x + c * stride);
     if (fa->by.solve == NULL && fa->upper && fa->symmetric != NULL)
@@ -189,9 +227,10 @@ void factor_solve_transposed(matrix_factor *fa, double x[])
 {
     if (fa->by.solve != NULL)
         fa->by.solve(fa->by.context, 1, x);
-    else if (!fa->upper && fa->unsymmetric != NULL)
+    else if (!fa->upper && fa->unsymmetric != NULL) {
+        add_solutions(fa, 1);
         factor_unsymmetric_solve_transposed(fa->unsymmetric, x);
-    else
+    } else
         factor_solve(fa, x);
 }
 

@@ -171,7 +171,6 @@ static double size_of(motion_estimate *e, const double half[])
     double *x = part(e, WORK);
     memcpy(x, half, (size_t)e->basis->n * sizeof *x);
     factor_solve(e->S_factor, x);
-    e->solutions++;
     return fmax(0, dense_dot(e->basis->n, half, x));
 }
 

@@ -84,7 +84,6 @@ static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
     factor_solve(s->p->K_factor, half);
-    s->out->solutions++;
     return fmax(0, dense_dot(s->basis.n, s->work, half));
 }
 
@@ -159,9 +158,7 @@ static status start(gyroscopic_solver *s, int count, fault *f)
         s->furthest = fmax(s->furthest, size);
         subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
     }
-    s->out->solutions += e.solutions;
     s->out->factorisations += e.factorisations;
-    s->out->dense_operations += e.dense_operations;
     eigen_free(&e);
     return outcome == STATUS_NOT_CONVERGED && isfinite(s->softest) ? STATUS_OK : outcome;
 }
@@ -343,7 +340,6 @@ static status store_results(gyroscopic_solver *s, fault *f)
     e.found = s->found;
     for (int i = 0; i < r->count; i++)
         take_pair(s, i, &e);
-    r->solutions += e.solutions;
     estimate_free(&e);
     return STATUS_OK;
 }

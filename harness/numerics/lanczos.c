@@ -92,7 +92,7 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     deflate(n, p->known, p->X, x, p->KX, x);
 }
 
-static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
+static int iterate(const lanczos_problem *p, lanczos_workspace *w)
 {
     int ido = 0, info = 1;
     w->parameter[0] = 1;
@@ -108,7 +108,6 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
             sparse_mul(p->K, x, y);
         } else {
             apply(p, x, y);
-            (*solutions)++;
         }
     }
 }
@@ -144,13 +143,13 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
 }
 
 static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
-                    double mu[], double **x, long *solutions, fault *f)
+                    double mu[], double **x, fault *f)
 {
     const int n = p->K->n;
     TRY(workspace_alloc(w, n, wanted, n - p->known, f));
     fill_start(n, w->start);
     deflate(n, p->known, p->KX, w->start, p->X, w->start);
-    const int info = iterate(p, w, solutions);
+    const int info = iterate(p, w);
     *found = info == 0 ? wanted : w->parameter[CONVERGED];
     if (info != 0 && (info != ENDED_EARLY || *found == 0))
         return fault_set(f, STATUS_NOT_CONVERGED,
@@ -182,13 +181,13 @@ static void mind_forks(void)
 }
 
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
-                       long *solutions, fault *f)
+                       fault *f)
 {
     lanczos_workspace w;
     *x = NULL;
     pthread_once(&forks, mind_forks);
     lock();
-    const status outcome = solve(p, &w, wanted, found, mu, x, solutions, f);
+    const status outcome = solve(p, &w, wanted, found, mu, x, f);
     unlock();
     workspace_free(&w);
     return outcome;

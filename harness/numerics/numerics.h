@@ -45,6 +45,24 @@ void by_numbers_free(by_numbers *);
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
+/* Work of a thread in factors and dense matrices. */
+typedef struct numerics_work {
+    long solutions; /* number of right-hand sides solved with factors */
+    /* sum, over these right-hand sides, of the numbers of entries of the factors */
+    double solved_entries;
+    double factor_flops; /* number of floating-point operations of all numeric factorisations */
+    /* sum of n^3 over all dense n x n matrices that were factored or whose eigenvalues were
+     * computed
+     */
+    double dense_operations;
+} numerics_work;
+
+/* Returns the work of this thread since it started. */
+numerics_work numerics_work_done(void);
+numerics_work numerics_work_since(const numerics_work *start);
+void numerics_work_add(const numerics_work *);
+void numerics_work_add_dense(double n); /* adds n^3 to dense_operations */
+
 typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
@@ -158,9 +176,7 @@ typedef struct eigen_side {
 typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
-    long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over eigenvalue problems of size n solved with dense
-                                matrices */
+    long factorisations;
 } eigen_result;
 
 /* Solves the problem. REFUSED: K is not positive definite, or was not factored as symmetric.
@@ -221,9 +237,7 @@ typedef struct gyroscopic_result {
     /* number of negative eigenvalues of K that the modes do not explain: as many growing modes, or
      * modes with negative energy, are missing */
     int unproven;
-    long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over eigenvalue problems of size n solved with dense
-                                matrices */
+    long factorisations;
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);

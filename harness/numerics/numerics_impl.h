@@ -28,7 +28,7 @@ typedef struct candidates {
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-double candidates_scale(candidates *p, long *solutions);
+double candidates_scale(candidates *p);
 /* Returns 1 if x^T A x could be as large as `energy` because of rounding alone. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
 /* Returns the largest relative change of x^T K x due to the assembly of K, over the first `count`
@@ -113,7 +113,6 @@ typedef struct motion_estimate {
     double shift;
     int found;    /* number of returned pairs, which come first */
     double *work; /* [9 n] */
-    long solutions;
 } motion_estimate;
 
 status estimate_alloc(int n, motion_estimate *, fault *);
@@ -262,11 +261,11 @@ typedef struct lanczos_problem {
  * have converged; smaller than `wanted` if the iteration ends early. NOT_CONVERGED: no value has
  * converged, or ARPACK fails. */
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
-                       long *solutions, fault *f);
+                       fault *f);
 
 /* Replaces the candidates by Ritz vectors of K^-1 A times the candidates, computed with refined
  * solutions (candidates_refine). */
-status polish(candidates *p, long *solutions, fault *f);
+status polish(candidates *p, fault *f);
 
 /* Computes the values of L and D in P A P^T = L D L^T, row by row. The terms of every number are
  * summed in the order of SuiteSparse's ldl_numeric, so the numbers agree bitwise. */

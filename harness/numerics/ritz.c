@@ -61,6 +61,7 @@ static int root_of_mass(const subspace *b, double R[])
         for (int i = 0; i < k; i++)
             for (int j = 0; j < k; j++)
                 R[i * k + j] = b->Mp[i * b->room + j];
+        numerics_work_add_dense(k);
         info = (int)LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', k, R, k, d);
     }
     for (int j = 0; info == 0 && j < k; j++)
@@ -115,6 +116,7 @@ static int largest_eigenvalues(int n, int most, double complex H[], double mu[],
     lapack_int *whole_work = calloc((size_t)whole_size + 1, sizeof *whole_work);
     if (work == NULL || real_work == NULL || whole_work == NULL)
         info = -1;
+    numerics_work_add_dense(n);
     if (info == 0)
         info =
             (int)LAPACKE_zheevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1,
@@ -250,6 +252,7 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
         info = root_of_mass(b, R);
     if (info == 0) {
         general_matrices(b, shift, R, A, B);
+        numerics_work_add_dense(n);
         info =
             (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'V', 'V', n, A, n, B, n, re, im, beta, w, n, z, n);
     }

@@ -45,6 +45,9 @@ typedef enum results_work {
     WORK_ITERATIONS,
     WORK_EVALUATIONS,
     WORK_FACTORISATIONS,
+    WORK_FLOPS,
+    WORK_SOLUTIONS,
+    WORK_ENTRIES,
     RESULTS_WORKS
 } results_work;
 extern const char *const results_work_names[RESULTS_WORKS];

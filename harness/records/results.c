@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const results_work_names[RESULTS_WORKS] = {"iterations", "evaluations",
-                                                       "factorisations"};
+const char *const results_work_names[RESULTS_WORKS] = {
+    "iterations", "evaluations", "factorisations", "flops", "solutions", "entries"};
 
 /* Appends an item filled with zeros to *list, which grows by `step` items (`list` is the address of
  * a pointer). Returns the item; NULL: out of memory. */
@@ -141,9 +141,9 @@ status results_series_summarise(stored_results *r, fault *f)
     return STATUS_OK;
 }
 
-const char results_table_head[] =
-    "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
-    "least_quantity,largest,largest_elements,largest_quantity,limits";
+const char results_table_head[] = "series,meshes,iterations,evaluations,factorisations,flops,"
+                                  "solutions,entries,errors,decades,least,least_elements,"
+                                  "least_quantity,largest,largest_elements,largest_quantity,limits";
 
 static void write_meshes(FILE *to, const result_series *s)
 {

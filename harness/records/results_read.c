@@ -111,7 +111,8 @@ typedef struct case_point_row {
 typedef struct cell_row {
     char point[16], formulation[FORMULATION_KEY], status[RESULTS_STATUS];
     int elements;
-    long strain, stress, inertia, iterations, factorisations;
+    long strain, stress, inertia, iterations, factorisations, solutions;
+    double flops, entries;
 } cell_row;
 
 typedef struct case_value_row {
@@ -137,7 +138,10 @@ static const table_column cell_columns[] = {
     {"stress_evaluations", FIELD_LONG, offsetof(cell_row, stress), 0},
     {"inertia_evaluations", FIELD_LONG, offsetof(cell_row, inertia), 0},
     {"iterations", FIELD_LONG, offsetof(cell_row, iterations), 0},
-    {"factorisations", FIELD_LONG, offsetof(cell_row, factorisations), 0}};
+    {"factorisations", FIELD_LONG, offsetof(cell_row, factorisations), 0},
+    {"factor_flops", FIELD_DOUBLE, offsetof(cell_row, flops), 0},
+    {"solutions", FIELD_LONG, offsetof(cell_row, solutions), 0},
+    {"solved_entries", FIELD_DOUBLE, offsetof(cell_row, entries), 0}};
 static const table_column value_columns[] = {
     {TEXT(case_value_row, point)},
     {TEXT(case_value_row, formulation)},
@@ -237,11 +241,13 @@ static int take_values(const case_tables *t, const cell_row *row, int *next, res
 /* Returns 1 if the counts of work are plausible, and so small that their sums do not overflow. */
 static int are_counts(const cell_row *row)
 {
-    static const long most = 1L << 50;
-    const long count[] = {row->iterations, row->strain, row->stress, row->inertia,
-                          row->factorisations};
+    static const double most = 1L << 50;
+    const double count[] = {(double)row->iterations,     (double)row->strain,
+                            (double)row->stress,         (double)row->inertia,
+                            (double)row->factorisations, row->flops,
+                            (double)row->solutions,      row->entries};
     for (size_t i = 0; i < sizeof count / sizeof count[0]; i++)
-        if (count[i] < 0 || count[i] > most)
+        if (!(count[i] >= 0 && count[i] <= most))
             return 0;
     return 1;
 }
@@ -264,6 +270,9 @@ static status take_cell(const char *path, const char *of, const case_tables *t, 
     cell->work[WORK_ITERATIONS] = row->iterations;
     cell->work[WORK_EVALUATIONS] = row->strain + row->stress + row->inertia;
     cell->work[WORK_FACTORISATIONS] = row->factorisations;
+    cell->work[WORK_FLOPS] = (long)row->flops;
+    cell->work[WORK_SOLUTIONS] = row->solutions;
+    cell->work[WORK_ENTRIES] = (long)row->entries;
     return STATUS_OK;
 }
 

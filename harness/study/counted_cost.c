@@ -11,10 +11,6 @@ static double count_of(const cell_result *c, counted_work which)
         return c->size.elements;
     case COUNTED_element_kinds:
         return c->size.kinds;
-    case COUNTED_strains:
-        return c->size.strains + c->size.inner;
-    case COUNTED_free:
-        return c->size.free;
     case COUNTED_strain_evaluations:
         return (double)c->counters.strain_evaluations;
     case COUNTED_stress_evaluations:
@@ -23,20 +19,16 @@ static double count_of(const cell_result *c, counted_work which)
         return (double)c->counters.inertia_evaluations;
     case COUNTED_geometric_evaluations:
         return (double)c->counters.geometric_evaluations;
-    case COUNTED_iterations:
-        return (double)c->counters.iterations;
     case COUNTED_load_steps:
         return (double)c->counters.steps;
-    case COUNTED_factorisations:
-        return (double)c->counters.factorisations;
     case COUNTED_solutions:
-        return (double)c->counters.solutions;
-    case COUNTED_factor_entries:
-        return (double)c->counters.factor_entries;
+        return (double)c->counters.numerics.solutions;
+    case COUNTED_solved_entries:
+        return c->counters.numerics.solved_entries;
     case COUNTED_factor_flops:
-        return c->counters.factor_flops;
+        return c->counters.numerics.factor_flops;
     case COUNTED_dense_operations:
-        return c->counters.dense_operations;
+        return c->counters.numerics.dense_operations;
     default:
         return 1;
     }
@@ -93,7 +85,7 @@ double counted_cost_of(const cost_coefficient *rows, const formulation *chosen,
     double sum = 0;
     for (; rows->formulation != NULL; rows++)
         if (rows->formulation[0] == '\0' || strcmp(rows->formulation, own) == 0)
-            sum += rows->seconds * count_of(cell, rows->first) * count_of(cell, rows->second);
+            sum += rows->seconds * count_of(cell, rows->count);
     return sum;
 }
 

@@ -213,7 +213,7 @@ static const char *wrong_count(const cell_result *cell, long reused, long stale,
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         if (row[i].counted < row[i].needed || (plain && row[i].counted != row[i].needed))
             return row[i].name;
-    return c->solutions < c->iterations ? "solutions" : NULL;
+    return c->numerics.solutions < c->iterations ? "solutions" : NULL;
 }
 
 int record_is_consistent(const cell_result *cell, const scene *s, newton_form newton,

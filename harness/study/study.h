@@ -896,7 +896,7 @@ status default_choice_elements(const cell_request *, const formulation *chosen, 
 status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
                            int count, double requested, default_choice *out, fault *f);
 
-/* Cost of a cell: sum of products of cost coefficients and counts of its work. The coefficients are
+/* Cost of a cell: sum of cost coefficients times counts of its work. The coefficients are
  * fitted to measured times (`make lab L=cost-coefficients`) and stored in
  * harness/study/cost_coefficients.csv, from which the build generates the table. */
 
@@ -905,17 +905,13 @@ typedef enum counted_work {
     COUNTED_one, /* one per cell */
     COUNTED_elements_total,
     COUNTED_element_kinds,
-    COUNTED_strains, /* number of strains of an element plus the number of inner unknowns */
-    COUNTED_free,
     COUNTED_strain_evaluations,
     COUNTED_stress_evaluations,
     COUNTED_inertia_evaluations,
     COUNTED_geometric_evaluations,
-    COUNTED_iterations,
     COUNTED_load_steps,
-    COUNTED_factorisations,
     COUNTED_solutions,
-    COUNTED_factor_entries,
+    COUNTED_solved_entries,
     COUNTED_factor_flops,
     COUNTED_dense_operations,
     COUNTED_KINDS
@@ -925,8 +921,8 @@ typedef struct cost_coefficient {
     /* name of the formulation, with options if these affect the coefficient; "": all formulations;
      * "*": formulations without coefficients */
     const char *formulation;
-    counted_work first, second; /* the cost is proportional to the product of both counts */
-    double seconds;             /* [s] cost per unit of the product, on the reference machine */
+    counted_work count;
+    double seconds; /* [s] cost per count, on the reference machine */
 } cost_coefficient;
 
 extern const cost_coefficient

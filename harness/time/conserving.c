@@ -21,7 +21,6 @@ static status direction(conserving *s, const motion_state *from, model_state *no
                         step_record *record, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    counters *count = &s->of.c->run->counters;
     memset(s->residual, 0, bytes);
     memset(s->column, 0, bytes);
     memset(s->row, 0, bytes);
@@ -42,9 +41,8 @@ static status direction(conserving *s, const motion_state *from, model_state *no
             dense_dot(s->free, s->row, s->dx) / (1 + dense_dot(s->free, s->row, s->column));
         for (int c = 0; c < s->free; c++)
             s->dx[c] -= part * s->column[c];
-        count->solutions++;
     }
-    context_count_solution(s->of.c, s->factor, 1, &s->counted);
+    context_count_factorisations(s->of.c, s->factor, &s->counted);
     return STATUS_OK;
 }
 

@@ -308,6 +308,7 @@ void conserving_inertia(conserving *s, const motion_state *from, const model_sta
 {
     const model *m = s->of.c->model;
     const frame_masses *all = s->of.masses;
+    s->of.c->run->counters.inertia_evaluations += all->masses;
     for (int k = 0; k < all->masses; k++) {
         const frame_mass *one = &all->mass[k];
         frame_mass_step p;

@@ -374,6 +374,7 @@ static status consistent_rates(const explicit_scheme *s, int i, double time, fau
     const double *e = s->at->state->e + (size_t)i * (size_t)model_strains(m);
     double *inner = s->at->state->inner + (size_t)i * (size_t)model_inner(m), before = INFINITY;
     for (int k = 0; k < MOST; k++) {
+        s->of.c->run->counters.stress_evaluations++;
         model_type(m)->stress(data, e, inner, &(stress_output){.memory = s->memory});
         const double change = model_type(m)->update(data, s->still, s->memory, inner);
         if (change < none || (k > 3 && change < 1e-9 && change >= before))
@@ -393,6 +394,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
     for (int i = 0; i < model_elements(m) && model_inner(m) > 0; i++) {
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s->at->state, model_element(m, i), x);
+        s->of.c->run->counters.strain_evaluations++;
         model_type(m)->strain(
             model_kind_of(m, i)->data, x,
             &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m),

@@ -49,7 +49,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     if (fresh)
         TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
     factor_solve(r->factor, r->residual);
-    context_count_solution(r->of.c, r->factor, fresh, &r->counted);
+    context_count_factorisations(r->of.c, r->factor, &r->counted);
     advance(one, record, out);
     out->at = one->from->time + one->h;
     radau_rates(r, one->from, one->h);
@@ -237,6 +237,5 @@ static status radau_error(radau *r, const motion_state *from, double h, motion_s
     const factor_counts counts = factor_count(r->single);
     r->of.c->run->counters.factorisations += counts.factorisations - r->counted_single;
     r->counted_single = counts.factorisations;
-    r->of.c->run->counters.solutions++;
     return STATUS_OK;
 }

@@ -59,7 +59,7 @@ status stage_direction(motion_stage *s, int fresh, fault *f)
     memcpy(s->dx, s->residual, (size_t)s->free * sizeof *s->dx);
     memset(s->dx + s->free, 0, (size_t)(s->all - s->free) * sizeof *s->dx);
     factor_solve(s->factor, s->dx);
-    context_count_solution(s->c, s->factor, fresh, &s->counted);
+    context_count_factorisations(s->c, s->factor, &s->counted);
     return STATUS_OK;
 }
 

@@ -14,11 +14,10 @@ BEGIN {
 $1 == "noise" { noise = $3; next }
 {
     name = $1; gsub(/;/, ",", name)
-    factors = split($2, factor, "*")
-    printf "    {\"%s\", COUNTED_%s, COUNTED_%s, %s},\n", name, factor[1], (factors > 1 ? factor[2] : "one"), $3
+    printf "    {\"%s\", COUNTED_%s, %s},\n", name, $2, $3
 }
 END {
-    print "    {NULL, COUNTED_one, COUNTED_one, 0}};"
+    print "    {NULL, COUNTED_one, 0}};"
     print "const double counted_cost_noise = " noise ";"
 }' "$2" >"$1.new"
 if cmp -s "$1.new" "$1"; then rm "$1.new"; else mv "$1.new" "$1"; fi

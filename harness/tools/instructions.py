@@ -209,7 +209,7 @@ def least(counts, form):
             "elimination": counts["strain_evaluations"] * triangle,
             "assembly": counts["strain_evaluations"] * triangle,
             "factorisation": counts["factor_flops"],
-            "solution": 4 * counts["factor_entries"] * counts["solutions"]}
+            "solution": 4 * counts["solved_entries"]}
 
 
 def measured(program, cell, numbers):

@@ -72,7 +72,7 @@ lab-newton: all ## compare the two forms of Newton's method; 20 seconds; build/n
 lab-integrators: all ## run the integrators on all cases with motions, with all formulations; check the reference with another integrator; a minute; build/integrators.json
 	@$(PYTHON) harness/tools/integrators.py $(PROGRAM) -o $(BUILD)/integrators.json $(INTEGRATORS)
 
-lab-cost-coefficients: all needs-report ## fit the cost coefficients of counted work to measured times on an idle machine; 5 minutes; harness/study/cost_coefficients.csv
+lab-cost-coefficients: all needs-report ## fit the cost coefficients of counted work to measured times on an idle machine, and measure their accuracy by kind of analysis; 25 minutes; harness/study/cost_coefficients.csv
 	@$(PYTHON) harness/tools/cost_coefficients.py $(PROGRAM) -o harness/study/cost_coefficients.csv
 
 lab-times: verify ## measure the times that docs/howto/speed.md states, on an idle machine; TIMES=--write: write them into the page; 20 minutes; build/lab/times.json

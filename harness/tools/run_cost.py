@@ -36,11 +36,11 @@ def stations_of(analyses, body):
 
 def motion_steps(body):
     """Returns the number of steps of a motion, with the same rule as harness/study/run_cost.c."""
-    tolerance, integrator = body.get("tolerance", 0), body["integrator"]
+    tolerance, integrator = float(body.get("tolerance", 0)), body["integrator"]  # YAML reads 1e-05 as text
     if tolerance > 0 and integrator != "explicit":
         steps, power = (40, 0.3) if integrator == "radau" else (80, 0.45)
         return steps * (1e-4 / tolerance) ** power
-    return math.ceil(body["stations"][-1] / body["step"] * (1 - 1e-9))
+    return math.ceil(float(body["stations"][-1]) / float(body["step"]) * (1 - 1e-9))
 
 
 def work_of(scene):

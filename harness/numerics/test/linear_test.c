@@ -107,11 +107,13 @@ static int determinant_sign(int n, const double A[])
     return sign;
 }
 
+enum { SIDES = 7 };
+
 /* Solves for several right-hand sides together and one at a time. Returns the number of solutions
  * that differ in any bit. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
-    enum { SIDES = 7, STRIDE = MOST + 2 };
+    enum { STRIDE = MOST + 2 };
     double together[SIDES * STRIDE], alone[SIDES * STRIDE];
     for (int i = 0; i < SIDES * STRIDE; i++)
         together[i] = alone[i] = random_number(seed);
@@ -128,7 +130,8 @@ static void random_matrices(kind what, const char *name, double allowed)
 {
     uint64_t seed = 2385;
     double worst = 0, least_condition = INFINITY, most_condition = 0;
-    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0, apart = 0;
+    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0, apart = 0,
+        wrong_work = 0;
     for (int sample = 0; sample < 40; sample++) {
         const int n = 2 + sample * (MOST - 2) / 39;
         double A[MOST * MOST], b[MOST], x[MOST];
@@ -141,7 +144,9 @@ static void random_matrices(kind what, const char *name, double allowed)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
                 A[i] *= turn == 0 ? 1 : -0.3;
+            const numerics_work start = numerics_work_done();
             failures += factor_numeric(fa, &s, NULL) != STATUS_OK;
+            wrong_work += !(numerics_work_since(&start).factor_flops == factor_count(fa).flops);
             wrong_sign += factor_count(fa).determinant != determinant_sign(n, A);
             if (what != UNSYMMETRIC) {
                 const int expected = negative_eigenvalues(n, A),
@@ -156,7 +161,11 @@ static void random_matrices(kind what, const char *name, double allowed)
                 b[i] = x[i] = random_number(&seed);
             factor_solve(fa, x);
             worst = fmax(worst, distance_from_dense(n, A, x, b));
+            const numerics_work solved = numerics_work_done();
             apart += apart_together(fa, &seed);
+            const numerics_work of_sides = numerics_work_since(&solved);
+            wrong_work += of_sides.solutions != 2 * SIDES || of_sides.factor_flops > 0 ||
+                          of_sides.solved_entries != 2.0 * SIDES * (double)factor_count(fa).entries;
         }
         gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0,
                  "%s matrix of %d: work is counted", name, n);
@@ -167,6 +176,7 @@ static void random_matrices(kind what, const char *name, double allowed)
              "%s: the condition is estimated as %.2f to %.2f of what it is", name, least_condition,
              most_condition);
     gsl_test_int(failures, 0, "%s: all samples are factorised", name);
+    gsl_test_int(wrong_work, 0, "%s: work of this thread", name);
     gsl_test_int(apart, 0, "%s: solutions made together are those made alone", name);
     gsl_test_int(wrong_sign, 0, "%s: the sign of the determinant", name);
     if (what != UNSYMMETRIC)
@@ -447,7 +457,6 @@ static void thread_pool_tests(void)
 
 enum {
     TRIANGULAR_MOST = 90,
-    SIDES = 7,
     STRIDE = TRIANGULAR_MOST + 3,
     FILL = TRIANGULAR_MOST * TRIANGULAR_MOST
 };

@@ -75,7 +75,8 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^better .* has a value now$")
 
     def test_extra_work(self):
-        for count in ("factorisations", "iterations", "strain_evaluations"):
+        for count in ("factorisations", "iterations", "strain_evaluations", "factor_flops", "solutions",
+                      "solved_entries"):
 
             def change(file, count=count):
 
@@ -196,7 +197,8 @@ class Compare(ProgramTest):
         self.trouble("too many", self.old, self.old, self.old)
 
     def test_impossible_counts(self):
-        for column in ("iterations", "strain_evaluations", "factorisations"):
+        for column in ("iterations", "strain_evaluations", "factorisations", "factor_flops", "solutions",
+                       "solved_entries"):
             for count in (-1, 2 ** 63 - 1):
 
                 def impossible(rows):

@@ -77,12 +77,9 @@ static void make(fields_bench *b)
                                          .steps = 15,
                                          .rejected_steps = 16,
                                          .factorisations = 17,
-                                         .solutions = 18,
-                                         .factor_entries = 19,
-                                         .factor_flops = 20,
+                                         .numerics = {18, 19, 20, 23},
                                          .negative_pivots = 21,
-                                         .geometric_evaluations = 22,
-                                         .dense_operations = 23};
+                                         .geometric_evaluations = 22};
     }
     b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
     b->v.truth = &b->row;
@@ -120,7 +117,7 @@ static void work(const gathering *g)
     static const char *const name[] = {
         "strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations",
         "load_steps",         "rejected_steps",     "factorisations",      "solutions",
-        "factor_entries",     "factor_flops",       "negative_pivots",     "geometric_evaluations",
+        "solved_entries",     "factor_flops",       "negative_pivots",     "geometric_evaluations",
         "dense_operations"};
     const subject s = gather_cell(g, 0, 3);
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)

@@ -13,6 +13,9 @@ WORK = {
     "iterations": ("iterations",),
     "evaluations": ("strain_evaluations", "stress_evaluations", "inertia_evaluations"),
     "factorisations": ("factorisations",),
+    "flops": ("factor_flops",),
+    "solutions": ("solutions",),
+    "entries": ("solved_entries",),
 }
 
 

@@ -48,7 +48,7 @@ static void make(scene_analysis_kind kind, consistency_bench *b)
     b->cell.counters = (counters){.strain_evaluations = evaluations,
                                   .stress_evaluations = evaluations,
                                   .factorisations = linearised,
-                                  .solutions = iterations,
+                                  .numerics = {.solutions = iterations},
                                   .iterations = iterations,
                                   .steps = STEPS};
 }
@@ -70,7 +70,7 @@ static void counts(scene_analysis_kind kind)
     } row[] = {{offsetof(counters, strain_evaluations), 1, "strain evaluations"},
                {offsetof(counters, stress_evaluations), 1, "stress evaluations"},
                {offsetof(counters, factorisations), 1, "factorisations"},
-               {offsetof(counters, solutions), 0, "solutions"}};
+               {offsetof(counters, numerics.solutions), 0, "solutions"}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         for (int more = -1; more <= 1; more++) {
             consistency_bench b;
