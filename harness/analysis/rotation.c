@@ -32,7 +32,8 @@ static void tangent_product(void *context, const double mode[], double product[]
     memcpy(t->x, mode, size);
     memset(t->y, 0, (size_t)t->all * sizeof *t->y);
     sparse_mul(t->geometric, t->x, t->y);
-    stiffness_parts_material_product(t->m, t->memory, t->state, t->x, t->y);
+    stiffness_parts_material_products(t->m, t->memory, t->state, 1, (const double *const[]){t->x},
+                                      (double *const[]){t->y});
     memcpy(product, t->y, size);
 }
 

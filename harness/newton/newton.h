@@ -1309,13 +1309,13 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
 /* Finds the cause of a failed factorisation, and sets the fault. */
 void singular_explain(analysis_context *c, fault *f);
 
-/* Products of K of the last linearisation with x, in two parts, for x and y [free + driven]. The
- * stiff part is computed from the element strains, y += sum J^T P'' (J x), because an assembled
- * matrix would lose all digits of soft motions. The soft part is a matrix on the pattern of G: sum
- * sigma_i H_i with the second derivatives of offsets and of sequences of angles, minus the
- * stiffness of loads and of rotating axes. */
-void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
-                                      const double x[], double y[]);
+/* Products of K of the last linearisation with x[columns], in two parts, for columns [free +
+ * driven]. The stiff part is computed from the element strains, y += sum J^T P'' (J x), because an
+ * assembled matrix would lose all digits of soft motions. The soft part is a matrix on the pattern
+ * of G: sum sigma_i H_i with the second derivatives of offsets and of sequences of angles, minus
+ * the stiffness of loads and of rotating axes. */
+void stiffness_parts_material_products(const model *, const linear_memory *, const model_state *,
+                                       int columns, const double *const x[], double *const y[]);
 /* Returns a bound of the rounding error of x^T K x for the stiff part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);

@@ -333,8 +333,10 @@ typedef struct bordered {
     double *Z;
     double S[TANGENT_BORDER * TANGENT_BORDER];
     int pivot[TANGENT_BORDER];
-    double *solution;                 /* [TANGENT_COMPONENTS x all] solutions for unit loads */
-    double *x, *load, *rest, *weight; /* [all] work space for refinement */
+    /* [TANGENT_COMPONENTS x all] solutions for unit loads; the loads and the residuals of a
+     * refinement */
+    double *solution, *load, *rest;
+    double *weight; /* [all] */
 } bordered;
 
 /* Allocates and factors the bordered system. SINGULAR: the structure is unsupported when the

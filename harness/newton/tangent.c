@@ -14,10 +14,11 @@ static void border_fill(border *, int free_count, const sparse *K);
 /* Solves the bordered system in place: x[columns x all]. Fixed and prescribed coordinates do not
  * change. */
 static void bordered_solve(node_tangent *t, const bordered *s, int columns, double x[]);
-/* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
- * element strains (stiffness_parts_material_product). SINGULAR: the accuracy is insufficient
- * because of rounding. */
-static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
+/* Refines the columns of s->solution iteratively for s->load, all at once. The stiff part of the
+ * residuals is computed from the element strains (stiffness_parts_material_products). SINGULAR: the
+ * accuracy is insufficient because of rounding. */
+static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, int columns,
+                              fault *f);
 
 /* Above this condition number, a solution has fewer than eight digits without refinement. */
 static const double harmless_condition = 1e8;
@@ -194,16 +195,6 @@ static double motion_of(const node_tangent *t, const int moving[], int component
     return sum;
 }
 
-static status refine(const equations *eq, node_tangent *t, const bordered *s, const int moving[],
-                     int component, double x[], fault *f)
-{
-    load_of(t, moving, component, s->load);
-    memcpy(s->x, x, (size_t)t->all * sizeof *x);
-    TRY(bordered_refine(eq, t, s, f));
-    memcpy(x, s->x, (size_t)t->all * sizeof *x);
-    return STATUS_OK;
-}
-
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
@@ -216,15 +207,15 @@ static status respond_all(const equations *eq, node_tangent *t, bordered *s, uns
             load_of(t, moving, j, s->solution + count * t->all);
             component[count++] = j;
         }
+    if (t->refined)
+        memcpy(s->load, s->solution, (size_t)(count * t->all) * sizeof *s->load);
     bordered_solve(t, s, count, s->solution);
-    for (int c = 0; c < count; c++) {
-        double *x = s->solution + c * t->all;
-        if (t->refined)
-            TRY(refine(eq, t, s, moving, component[c], x, f));
+    if (t->refined)
+        TRY(bordered_refine(eq, t, s, count, f));
+    for (int c = 0; c < count; c++)
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
             if (components >> i & 1u)
-                C[6 * i + component[c]] = motion_of(t, moving, i, x);
-    }
+                C[6 * i + component[c]] = motion_of(t, moving, i, s->solution + c * t->all);
     return STATUS_OK;
 }
 
@@ -380,14 +371,14 @@ status bordered_alloc(node_tangent *t, bordered *out, fault *f)
     const border *b = &t->border;
     const size_t all = (size_t)t->all + 1;
     const int columns = t->condensed != NULL ? 0 : b->count;
+    const size_t size = TANGENT_COMPONENTS * all;
     out->Z = calloc((size_t)(columns * t->free) + 1, sizeof *out->Z);
-    out->solution = calloc(TANGENT_COMPONENTS * all, sizeof *out->solution);
-    out->x = calloc(4 * all, sizeof *out->x);
-    if (out->Z == NULL || out->x == NULL || out->solution == NULL)
+    out->solution = calloc(3 * size + all, sizeof *out->solution);
+    if (out->Z == NULL || out->solution == NULL)
         return fault_memory(f, "a compliance");
-    out->load = out->x + all;
-    out->rest = out->load + all;
-    out->weight = out->rest + all;
+    out->load = out->solution + size;
+    out->rest = out->load + size;
+    out->weight = out->rest + size;
     memcpy(out->Z, b->U, (size_t)(columns * t->free) * sizeof *out->Z);
     factor_solve_many(t->factor, columns, t->free, out->Z);
     for (int i = 0; i < columns; i++)
@@ -404,7 +395,6 @@ status bordered_alloc(node_tangent *t, bordered *out, fault *f)
 void bordered_free(bordered *s)
 {
     free(s->Z);
-    free(s->x);
     free(s->solution);
 }
 
@@ -429,29 +419,59 @@ static void bordered_solve(node_tangent *t, const bordered *s, int columns, doub
         add_released(t, s, x + c * t->all);
 }
 
-static void residual_of(const equations *eq, const node_tangent *t, const bordered *s)
+/* Computes the residuals s->rest[count] of these columns. */
+static void residuals_of(const equations *eq, const node_tangent *t, const bordered *s, int count,
+                         const int column[])
 {
-    double *rest = s->rest;
-    memset(rest, 0, (size_t)t->all * sizeof *rest);
-    sparse_mul(&t->geometric, s->x, rest);
-    stiffness_parts_material_product(eq->m, &eq->run->memory, t->state, s->x, rest);
-    for (int k = 0; k < t->all; k++)
-        rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
+    const double *x[TANGENT_COMPONENTS];
+    double *rest[TANGENT_COMPONENTS];
+    memset(s->rest, 0, (size_t)(count * t->all) * sizeof *s->rest);
+    for (int c = 0; c < count; c++) {
+        x[c] = s->solution + column[c] * t->all;
+        rest[c] = s->rest + c * t->all;
+        sparse_mul(&t->geometric, x[c], rest[c]);
+    }
+    stiffness_parts_material_products(eq->m, &eq->run->memory, t->state, count, x, rest);
+    for (int c = 0; c < count; c++)
+        for (int k = 0; k < t->all; k++)
+            rest[c][k] = k < t->free || border_place(&t->border, k) >= 0
+                             ? s->load[column[c] * t->all + k] - rest[c][k]
+                             : 0;
 }
 
-static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
+static refinement_state correct(const node_tangent *t, const bordered *s, const double change[],
+                                double x[], solution_refinement *r)
 {
-    solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
-    refinement_state state = REFINEMENT_GOES_ON;
-    metric_of(eq->m, s->weight);
-    while (state == REFINEMENT_GOES_ON) {
-        residual_of(eq, t, s);
-        bordered_solve(t, s, 1, s->rest);
-        for (int k = 0; k < t->all; k++)
-            s->x[k] += s->rest[k];
-        state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x, 0));
+    for (int k = 0; k < t->all; k++)
+        x[k] += change[k];
+    return refinement_next(r, refinement_part(t->all, s->weight, change, x, 0));
+}
+
+static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, int columns,
+                              fault *f)
+{
+    solution_refinement r[TANGENT_COMPONENTS];
+    int column[TANGENT_COMPONENTS];
+    for (int c = 0; c < columns; c++) {
+        r[c] = (solution_refinement){.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
+        column[c] = c;
     }
-    return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the compliance", f);
+    metric_of(eq->m, s->weight);
+    for (int count = columns, rest = 0; count > 0; count = rest) {
+        residuals_of(eq, t, s, count, column);
+        bordered_solve(t, s, count, s->rest);
+        rest = 0;
+        for (int c = 0; c < count; c++) {
+            const int at = column[c];
+            const refinement_state state =
+                correct(t, s, s->rest + c * t->all, s->solution + at * t->all, &r[at]);
+            if (state == REFINEMENT_LOST)
+                return refinement_refuse(&r[at], "the compliance", f);
+            if (state == REFINEMENT_GOES_ON)
+                column[rest++] = at;
+        }
+    }
+    return STATUS_OK;
 }
 
 enum { LEAST = 2, MOST = 30 };

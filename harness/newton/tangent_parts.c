@@ -87,22 +87,83 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-void stiffness_parts_material_product(const model *m, const linear_memory *memory,
-                                      const model_state *s, const double x[], double y[])
+enum { TOGETHER = 4 };
+
+#define INLINED static inline __attribute__((always_inline))
+
+/* Computes out[m x width] = A x[n x width]. */
+INLINED void mul(int width, int m, int n, const double A[], const double x[], double out[])
 {
-    for (int i = 0; i < model_elements(m); i++) {
-        const mesh_element *el = model_element(m, i);
-        const model_slot w = linearise_slot(m, memory, i);
-        double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
-            force[MODEL_MAX_COORDINATES] = {0};
-        kinematics_local(m, s, el, x, local);
-        dense_mul_vec(model_strains(m), model_own_coordinates(m), w.J, local, e);
-        dense_mul_vec(model_strains(m), model_strains(m), w.C, e, sigma);
-        dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J, sigma, force);
-        eliminate_forces(m, s, el, force);
-        assemble_vector(el, force, y);
+    for (int i = 0; i < m; i++) {
+        double sum[TOGETHER] = {0};
+        for (int j = 0; j < n; j++)
+            for (int c = 0; c < width; c++)
+                sum[c] += A[i * n + j] * x[width * j + c];
+        for (int c = 0; c < width; c++)
+            out[width * i + c] = sum[c];
     }
-    discrete_material_product(m, s, x, y);
+}
+
+INLINED void mul_transposed(int width, int m, int n, const double A[], const double x[],
+                            double out[])
+{
+    memset(out, 0, (size_t)(n * width) * sizeof *out);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < n; j++)
+            for (int c = 0; c < width; c++)
+                out[width * j + c] += A[i * n + j] * x[width * i + c];
+}
+
+/* Adds the products of an element with at most `width` columns. */
+INLINED void add_material(int width, const model *m, const linear_memory *memory,
+                          const model_state *s, int i, int columns, const double *const x[],
+                          double *const y[])
+{
+    const mesh_element *el = model_element(m, i);
+    const model_slot w = linearise_slot(m, memory, i);
+    const int own = model_own_coordinates(m), n = model_strains(m);
+    double local[ELEMENT_MAX_COORDINATES * TOGETHER], e[ELEMENT_MAX_STRAINS * TOGETHER],
+        sigma[ELEMENT_MAX_STRAINS * TOGETHER];
+    memset(local, 0, (size_t)(own * width) * sizeof *local);
+    for (int c = 0; c < columns; c++) {
+        double one[ELEMENT_MAX_COORDINATES];
+        kinematics_local(m, s, el, x[c], one);
+        for (int k = 0; k < own; k++)
+            local[width * k + c] = one[k];
+    }
+    mul(width, n, own, w.J, local, e);
+    mul(width, n, n, w.C, e, sigma);
+    mul_transposed(width, n, own, w.J, sigma, local);
+    for (int c = 0; c < columns; c++) {
+        double force[MODEL_MAX_COORDINATES] = {0};
+        for (int k = 0; k < own; k++)
+            force[k] = local[width * k + c];
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, force, y[c]);
+    }
+}
+
+static void add_some(const model *m, const linear_memory *memory, const model_state *s, int i,
+                     int columns, const double *const x[], double *const y[])
+{
+    if (columns == 1)
+        add_material(1, m, memory, s, i, 1, x, y);
+    else if (columns == 2)
+        add_material(2, m, memory, s, i, 2, x, y);
+    else
+        add_material(TOGETHER, m, memory, s, i, columns, x, y);
+}
+
+void stiffness_parts_material_products(const model *m, const linear_memory *memory,
+                                       const model_state *s, int columns, const double *const x[],
+                                       double *const y[])
+{
+    for (int i = 0; i < model_elements(m); i++)
+        for (int c = 0; c < columns; c += TOGETHER)
+            add_some(m, memory, s, i, columns - c < TOGETHER ? columns - c : TOGETHER, x + c,
+                     y + c);
+    for (int c = 0; c < columns; c++)
+        discrete_material_product(m, s, x[c], y[c]);
 }
 
 /* Strains have the rounding errors of their terms, and stresses also those of the entries of P''.
@@ -176,7 +237,6 @@ status stiffness_parts_geometric(const equations *eq, const linear_memory *memor
     const element_rotating_frame frame = loading_frame(&eq->loading, s->path);
     const model *m = eq->m;
     const size_t size = (size_t)model_own_coordinates(m) * (size_t)model_own_coordinates(m);
-    enum { TOGETHER = 4 };
     status outcome = STATUS_OK;
     sparse_zero(G);
     ahead_strains(eq, s, AHEAD_H, s->sigma);
