@@ -566,7 +566,7 @@ void discrete_equations(const model *, const model_state *, const mesh_discrete 
 /* Adds the inertia of the discrete elements to M and G (rotating_frame_inertia). G may be NULL. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
-/* Add the two parts of the tangent (see stiffness_parts_material_product in newton.h).
+/* Add the two parts of the tangent (see stiffness_parts_material_products in newton.h).
  * discrete_material_product adds to y the product of the material part and x[free + driven].
  * discrete_geometric adds the geometric part to `out`. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
