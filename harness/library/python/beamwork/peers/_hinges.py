@@ -50,17 +50,18 @@ def check_hinges(scene: Scene) -> None:
     """Raises Refused if a release depends on large rotations in space, or on the axes of a curved member, or if critical
     loads computed by drivers would converge slowly or not at all."""
     if any(a.kind == "buckling" for a in scene.analyses.values()) and any("release" in m.raw for m in scene.members.values()):
-        raise Refused("release: drivers have no buckling analysis of members with hinges")
+        raise Refused("release: drivers do not support buckling analyses of members with hinges")
     small = all(a.kind == "linear" or (a.kind == "modal" and not a.about) for a in scene.analyses.values())
     normal = _motion.normal(scene)
     for member in scene.members.values():
         for end in (0, 1):
             own = _released(member, end)
             if own and any(member.curvature):
-                raise Refused(f"release: drivers have no hinges of curved members ({member.name})")
+                raise Refused(f"release: drivers do not support hinges of curved members ({member.name})")
             in_plane = normal is not None and own and _in_space(member, own) == {"r" + "xyz"[normal]}
             if own and not (small or in_plane or own == set(COMPONENTS[3:])):
-                raise Refused(f"release: drivers have ball joints, and hinges in a plane, but not that of {member.name} in large motions")
+                raise Refused("release: in large motions, drivers support only ball joints, and hinges about the normal of the plane in which "
+                              f"the structure moves ({member.name})")
 
 
 def idle(scene: Scene) -> Mapping[str, frozenset[str]]:

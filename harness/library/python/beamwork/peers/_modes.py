@@ -96,7 +96,7 @@ def require_still_springs(scene: Scene, mesh: Mesh) -> None:
     """Raises Refused if loads before buckling may twist a rotational spring, because the rotation of its moment with the node
     would be that of the program's spring."""
     if any(any(s.stiffness[3:]) for s in scene.springs):
-        require_axial_loads(scene, mesh, "drivers have rotational springs under axial loads only")
+        require_axial_loads(scene, mesh, "drivers support rotational springs only if all loads are axial")
 
 
 def _measures(mesh: Mesh, mode: Any) -> tuple[list[float], list[float]]:

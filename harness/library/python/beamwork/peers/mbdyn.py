@@ -86,7 +86,7 @@ class Beams(Model):
         if not self._components(node):
             return 0
         if "part_of" in node.raw:
-            raise Refused(f"part_of: {node.name} is part of a body and has supports of its own")
+            raise Refused(f"part_of: the driver does not support nodes that are part of a body and have supports ({node.name})")
         rotations = [c for c in self._components(node) if c[0] == "r"]
         if len(rotations) == 1 and not self._planar("xyz".index(rotations[0][1])):
             raise Refused(f"hold: the driver does not hold one rotation of {node.name}")
@@ -248,7 +248,7 @@ class Beams(Model):
         name = analysis.raw["node"]
         node, number = self.scene.nodes[name], self.mesh.node_of[name]
         if self.owner[number] != number:
-            raise Refused(f"part_of: {name} is part of a body")
+            raise Refused(f"part_of: the driver does not compute compliances of nodes that are part of a body ({name})")
         iterations, tangents = 0, self.tangents.get(str(analysis.about), [])
         if analysis.about is None:
             found = self._output(1, _Curve(self.scene, (1.0, ), _SHORT, loaded=False))

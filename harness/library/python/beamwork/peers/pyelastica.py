@@ -54,7 +54,7 @@ class Rod(Model):
         self.reversed = len(held[0]) == 0
         self.section = mesh.elements[0].member.section
         if not all(map(math.isfinite, self.section.GA)):
-            raise Refused("shear: the rods are not rigid in shear; give shear stiffnesses")
+            raise Refused("shear: the section is rigid in shear, but the rods of PyElastica deform in shear; give shear stiffnesses")
         self.unknowns = 6 * self.number
         self.steps = 0
         if self.moves and ("rotary inertia" not in scene.physics or min(self.section.rho_I) <= 0 or self.section.rho_A <= 0):

@@ -111,11 +111,12 @@ def _check_springs(scene: Scene) -> None:
     flat = _motion.normal(scene) is not None and (scene.plane or all(a.kind != "modal" or not a.about for a in scene.analyses.values()))
     for spring in scene.springs:
         if len(spring.stiffness) != 6:
-            raise Refused(f"stiffness: drivers have springs with six stiffnesses only, not {spring.name}")
+            raise Refused(f"stiffness: drivers support only springs with six stiffnesses ({spring.name})")
         if any(spring.stiffness[3:]) and not small and not flat:
-            raise Refused(f"springs: drivers have no rotational springs in large motions in space ({spring.name})")
+            raise Refused(f"springs: drivers do not support rotational springs in large motions in space ({spring.name})")
         if spring.begin is not None and (not small or scene.nodes[spring.begin].at != scene.nodes[spring.end].at):
-            raise Refused(f"springs: drivers have springs between nodes at one place, for small displacements, not {spring.name}")
+            raise Refused("springs: drivers support a spring between two nodes only if the nodes coincide and displacements are small "
+                          f"({spring.name})")
 
 
 def _stays_in_plane(scene: Scene) -> bool:
@@ -150,14 +151,14 @@ def check(scene: Scene, element: Element, program: str) -> None:
                     raise Refused(f"{key}: the driver of {program} does not read this key of {name}")
     for name, node in scene.nodes.items():
         if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
-            raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
+            raise Refused(f"fork: drivers support forks only about a global axis and without large rotations ({name})")
     _check_springs(scene)
     check_hinges(scene)
     for load in scene.loads:
         if load.kind == "temperature" and kinds != {"linear"}:
-            raise Refused(f"temperature: drivers have {load.name} in linear analyses only")
+            raise Refused(f"temperature: drivers support temperature loads only in linear analyses ({load.name})")
         if "gradient" in load.raw and not {"rectangle", "constants", "i", "box", "tube"} & set(file["sections"][scene.members[str(load.member)].section.name]):
-            raise Refused(f"gradient: drivers have it only for sections with known principal axes ({load.name})")
+            raise Refused(f"gradient: drivers support temperature gradients only for sections with known principal axes ({load.name})")
     for name, motion in scene.motions.items():
         start = _motion.function_of(motion)
         if start is not None and start(0.0) != 0 and any(a.kind not in ("motion", "modal") for a in scene.analyses.values()):
@@ -187,7 +188,7 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     if lacks:
         return f"{lacks[0]}: the element does not model it"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
-        return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
+        return f"about: drivers support {analysis.kind} analyses only about states of static analyses"
     if q.raw.get("node") in (loose := idle(scene)) and q.raw.get("component") in loose[q.raw["node"]]:
         return f"release: nothing depends on this rotation of {q.raw['node']}"
     if q.kind == "energy" and scene.springs:
