@@ -166,10 +166,10 @@ def analyses(scene, questions, grid, scales=None):
             answer(asked, [0.0], [{q.name: found[i] for q, i in zip(asked, which)}])
         elif kind == "modal" and asked:
             raise Refused(
-                f"{name}: frequencies about a loaded state are not within the deriving program")
+                f"{name}: frequencies about a loaded state are not supported by the deriving program")
         elif kind != "compliance" and asked:
             raise Refused(
-                f"{name}: analyses of the kind '{kind}' are not within the deriving program")
+                f"{name}: analyses of the kind '{kind}' are not supported by the deriving program")
 
     for name in scene["analyses"]:
         try:

@@ -230,7 +230,7 @@ class SceneNetwork:
                 entry = self.weight(entry, name)
             if entry.get("axes", "fixed") != "fixed":
                 raise Refused(
-                    f"{name}: a member's axes at a node are not within the deriving program")
+                    f"{name}: loads on a node in the axes of a member are not supported by the deriving program")
             place = named(self.places, entry["on"], "node", name)
             owner = next(
                 p for p in self.places.values() if p.body is place.body and p.support is not None)

@@ -137,7 +137,7 @@ def under(C, moment, convention, name):
     if np.linalg.cond(C[np.ix_(some, some)] / np.sqrt(np.outer(np.diag(C)[some],
                                                                np.diag(C)[some]))) > 1e12:
         raise Refused(
-            f"{name}: {convention} moments where turns depend on each other are not within the deriving program"
+            f"{name}: {convention} moments on a node whose rotations depend on each other are not supported by the deriving program"
         )
     K, out = np.linalg.inv(C[np.ix_(some, some)]), np.zeros((6, 6))
     if convention == "semitangential":
@@ -327,7 +327,7 @@ def lowest(left, mass, count):
         solved = splu(left)
     except RuntimeError as why:
         raise Refused(
-            "frequencies of what is not held are not within the deriving program") from why
+            "frequencies of a structure that can move without deformation are not supported by the deriving program") from why
     operator = LinearOperator(left.shape, matvec=lambda x: solved.solve(mass @ x), dtype=float)
     start = np.random.default_rng(1).standard_normal(left.shape[0])
     wanted = count + 6
