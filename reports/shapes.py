@@ -19,7 +19,7 @@ from reports.data import text
 SYMBOL = 0.03  # largest half side, relative to the size, of a rectangle that represents a section known only by its constants
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
 VISIBLE = 0.02  # displacement, relative to the size, below which the picture exaggerates displacements
-GAP = 0.35  # relative gap beyond which parts of a body are joined by rods
+GAP = 0.35  # gap, relative to the extent of a body, beyond which its parts are joined by rods
 CLAMPED = 63  # bits of all six components
 FRAME = "motion"  # kind of a state that is a frame of a motion, whose value is the time [s]
 

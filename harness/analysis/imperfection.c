@@ -113,8 +113,8 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     free(u);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s: modes %d and %d have the same value, and the direction does not "
-                             "choose between them; give another direction",
+                             "%s: modes %d and %d have the same value, and all their combinations "
+                             "are equally close to the direction; give another direction",
                              owner_name.text, same.mode[0], same.mode[1]);
 }
 

@@ -75,7 +75,8 @@ typedef struct transfers_compared {
     double *whole, *reduced;
     double *rounding; /* [each] rounding errors of the transfer functions of the full model */
     double *largest;  /* [each] largest absolute value of the full model over all frequencies */
-    char *exists;     /* [each] 0: zero at all frequencies, apart from rounding errors */
+    /* [each] 0: the transfer function is zero at all frequencies, apart from rounding errors */
+    char *exists;
     /* [n + motions] kind of each coordinate of the full model: 0 m, 1 rad, 2 rad/m, 3 prescribed
      * motion */
     char *kind;

@@ -47,7 +47,7 @@ def value_of(answer, blocks):
     found = steps[int(step) - 1][int(node)][int(direction) - 1]
     if reciprocal == "1":
         if found == 0:
-            raise Incomplete(f"{answer[0]}: the displacement under its load is zero")
+            raise Incomplete(f"{answer[0]}: the displacement under the load is zero, so its reciprocal is not defined")
         found = 1 / found
     scaled = float(factor) * found
     return scaled + float(offset), abs(scaled) * DIGITS

@@ -77,8 +77,8 @@ typedef struct linkage {
      * element) */
     int *part, *number;
     int count;
-    /* [6 count x 6 count] sum of squares of the motions that joints, constraints, supports and
-     * springs prevent */
+    /* [6 count x 6 count] matrix of a quadratic form in the motions of the parts: the sum of
+     * squares of the motions that joints, constraints, supports and springs prevent */
     double *S;
 } linkage;
 

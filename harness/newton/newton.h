@@ -956,14 +956,14 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
  * semitangential convention at all other nodes. */
 
 /* Returns 1 if the convention changes the stiffness given by the tangent. Each column of the
- * compliance then depends on all other columns. */
+ * converted compliance then depends on all columns of the compliance given by the tangent. */
 int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3]);
 
-/* Converts the C[6 x 6] of the tangent to the convention, and computes the inverse K[6 x 6] for the
- * possible motions. C must be complete in the components that can move. If the convention does not
- * change the stiffness, C is not modified. m[3]: moment on the node [N m]. Rows and columns of
- * fixed components are zero. SINGULAR: C or the converted stiffness is singular to working
- * precision. */
+/* Converts the compliance C[6 x 6] of the tangent to the convention, and computes the stiffness
+ * K[6 x 6], its inverse for the possible motions. C must be complete in the components that can
+ * move. If the convention does not change the stiffness, C is not modified. m[3]: moment on the
+ * node [N m]. Rows and columns of fixed components are zero. SINGULAR: C or the converted stiffness
+ * is singular to working precision. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 

@@ -94,8 +94,9 @@ typedef struct history {
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
 } history;
 
-/* Adds a pair of differences: of the steps G(x) - x (`move`), made orthogonal to the previous ones,
- * and of the values G(x) of the map (`given`). A full history is cleared first. */
+/* Adds a pair of differences: that of the steps G(x) - x (`move`), made orthogonal to the previous
+ * ones, and that of the values G(x) of the map (`given`), combined in the same way. A full history
+ * is cleared first. Nothing is added if `move` depends linearly on the previous differences. */
 static void store_history(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)

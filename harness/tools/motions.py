@@ -49,7 +49,8 @@ LOOSE = 0.01
 
 
 def stored(case):
-    """Returns {structure parameters: [(time or None, row)]} from the table of a case, without rows of other models."""
+    """Returns {structure parameters: [(time or None, row)]} from the table of a case. The key does not contain
+    the keys of HOW, the time, or parameters with the value *."""
     found = {}
     with open(ROOT / "reference" / "tables" / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):
