@@ -37,10 +37,10 @@ def buckling(model: Any) -> Answer:
     """Computes the critical factors of all loads."""
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
-        raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+        raise Refused("buckling: the driver supports only loads proportional to the load factor, and no driven nodes")
     require_still_springs(scene, model.mesh)
     if any(load.kind.endswith("moment") or load.follower for load in scene.loads):
-        raise Refused("buckling: the driver has no moments and no follower loads")
+        raise Refused("buckling: the driver supports neither moments nor follower loads")
     model.settings_of.staticSolver.newton.relativeTolerance = model.settings_of.staticSolver.newton.absoluteTolerance = 1e-13
     K, constraints = tangent(model, model.undeformed)
     free = free_motions(constraints)

@@ -54,7 +54,7 @@ class Cable(Steps):
             if k < 2:
                 self.constrain(name, self.of[name][0], k, k, motion)
             elif any(v != 0 for v in self.scene.motions[motion]["value"]):
-                raise Refused(f"drive: the driver does not drive {word} of a cable")
+                raise Refused(f"drive: the driver cannot prescribe {word} of a cable")
         axes = [int(k in _PLANE and (c in node.hold or (c in node.drive and k == 5))) for k, c in enumerate(COMPONENTS)]
         if any(axes):
             ground = self.add("MarkerNodeRigid", nodeNumber=self.add("NodePointGround", referenceCoordinates=list(node.at)))

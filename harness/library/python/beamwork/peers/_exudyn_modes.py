@@ -78,10 +78,10 @@ def _moment_stiffness(M: Sequence[float]) -> list[list[float]]:
 def _require_plain(model: Any, analysis: Analysis) -> None:
     """Raises Refused if the tangent of a loaded state lacks effects of follower loads, or of moments in hinges in space."""
     if not model.name.startswith("exact_2d") and any("release" in member.raw for member in model.scene.members.values()):
-        raise Refused(f"release: the driver has no {analysis.kind} analysis in space about a state of members with hinges")
+        raise Refused(f"release: in space, the driver does not support {analysis.kind} analyses about a state of members with hinges")
     for load in model.scene.loads:
         if load.follower:
-            raise Refused(f"follower: the driver has no {analysis.kind} analysis with follower loads ({load.name})")
+            raise Refused(f"follower: the driver does not support {analysis.kind} analyses with follower loads ({load.name})")
 
 
 def compliance(model: Any, analysis: Analysis) -> list[State]:
@@ -180,10 +180,10 @@ def modal(model: Any, analysis: Analysis) -> Answer:
     if analysis.about is not None:
         _require_plain(model, analysis)
         if not model.name.startswith("exact_2d") and any(load.kind.endswith("moment") for load in scene.loads):
-            raise Refused("about: the driver has no modes in space under moments, for which the tangent is not symmetric")
+            raise Refused("about: the driver does not support modes in space under moments, for which the tangent is not symmetric")
     rigid = rigid_motions(scene, mesh)
     if rigid and analysis.about is not None:
-        raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
+        raise Refused("about: the driver does not support modes of a loaded structure if its supports leave it free to move")
     K, M, free = _matrices(model)
     found, vectors = spectrum(K, M, rigid)
     shapes = [_shape(model, free @ vectors[:, i]) for i in range(len(found))]

@@ -128,7 +128,7 @@ class Space(Steps):
                 k = COMPONENTS.index(word)
                 self.constrain(name, self.of[name][0], k, k, motion)
             elif any(v != 0 for v in self.scene.motions[motion].get("value", ())):
-                raise Refused(f"drive: the driver does not drive {word} in space along a path")
+                raise Refused(f"drive: the driver cannot prescribe {word} in space along a load path")
         held = node.hold | self.loose.get(name, frozenset())
         axes = [int(c in held or (c in node.drive and c[0] == "r")) for c in COMPONENTS]
         if sum(axes[3:]) == 1 and not self._about_normal(axes) and any(a.kind not in ("modal", "buckling") or a.about

@@ -43,7 +43,7 @@ def buckling(model: Any) -> Answer:
     """Computes the critical factors of all loads."""
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or model.driven:
-        raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+        raise Refused("buckling: the driver supports only loads proportional to the load factor, and no driven nodes")
     require_axial_loads(scene, model.mesh, "forces of bent members are not accurate at small loads")
     part = model.linear_part()
     model.run(part, model.strategy(part, linear=True), model.loads(None), {})

@@ -44,7 +44,7 @@ def require_known(scene: Scene) -> None:
         if load.follower:
             raise Refused("follower loads: this driver applies dead loads only")
         if load.kind not in ("force", "moment", "distributed", "distributed_moment", "gravity", "temperature"):
-            raise Refused(f"loads of kind {load.kind}: this driver has no such load")
+            raise Refused(f"loads: the driver does not support loads of the kind {load.kind}")
 
 
 def _thermal(load: Load, mesh: Mesh, scene: Scene) -> dict[int, list[float]]:
@@ -70,7 +70,7 @@ def nodal(load: Load, mesh: Mesh, scene: Scene) -> Mapping[int, Sequence[float]]
     if kind == "temperature":
         return _thermal(load, mesh, scene)
     if kind not in ("force", "moment", "distributed", "distributed_moment", "gravity"):
-        raise Refused(f"{kind}: the driver has forces and moments only")
+        raise Refused(f"{kind}: the driver supports only forces and moments")
     first = 3 if kind.endswith("moment") else 0
     out: dict[int, list[float]] = {}
 

@@ -17,7 +17,7 @@ def rigid_motions(scene: Scene, mesh: Mesh) -> int:
     import numpy as np  # pylint: disable=import-outside-toplevel
     part = list(range(len(mesh.nodes)))
     if any(s.begin is not None for s in scene.springs):
-        raise Refused("springs: the driver has no modes with springs between nodes")
+        raise Refused("springs: the driver does not support modes of structures with springs between nodes")
     for element in mesh.elements:
         kept = {part[k] for k in element.nodes}
         part = [min(kept) if p in kept else p for p in part]
@@ -36,7 +36,7 @@ def rigid_motions(scene: Scene, mesh: Mesh) -> int:
             rows += [motion[COMPONENTS.index(c)] for c in held]
         free += 6 - (int(np.linalg.matrix_rank(np.array(rows), tol=1e-9)) if rows else 0)
     if free and any("release" in member.raw for member in scene.members.values()):
-        raise Refused("release: the driver has no modes of structures with hinges that their supports do not hold")
+        raise Refused("release: the driver does not support modes of a structure with hinges if its supports leave it free to move")
     return free
 
 

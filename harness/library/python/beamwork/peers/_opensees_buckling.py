@@ -39,7 +39,7 @@ def buckling(model: Any) -> Answer:
     """Computes the critical factors of all loads."""
     scene = model.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
-        raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+        raise Refused("buckling: the driver supports only loads proportional to the load factor, and no driven nodes")
     require_still_springs(scene, model.mesh)
     if any(load.kind.endswith("moment") for load in scene.loads):
         raise Refused("buckling: not tested with moments as loads")

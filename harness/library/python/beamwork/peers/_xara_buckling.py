@@ -56,10 +56,10 @@ def buckling(owner: Any) -> Answer:
     """Computes the critical factors of all loads."""
     scene = owner.scene
     if any("factor" in load.raw for load in scene.loads) or any(node.drive for node in scene.nodes.values()):
-        raise Refused("buckling: the driver has loads that grow in proportion only, and no driven nodes")
+        raise Refused("buckling: the driver supports only loads proportional to the load factor, and no driven nodes")
     require_still_springs(scene, owner.mesh)
     if any(load.kind.endswith("moment") for load in scene.loads):
-        raise Refused("buckling: the driver has no moments as loads")
+        raise Refused("buckling: the driver does not support moments as loads")
     if any(math.isfinite(k) for s in scene.sections.values() for k in s.GA):
         require_axial_loads(scene, owner.mesh, "frames that are sheared before buckling have no reference state in xara")
     K, _ = _tangent(owner, owner.new(), 0.0)

@@ -417,7 +417,7 @@ class Frame(Model):
         rigid = rigid_motions(self.scene, self.mesh)
         if analysis.about is not None:
             if rigid:
-                raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
+                raise Refused("about: the driver does not support modes of a loaded structure if its supports leave it free to move")
             part = self.states_of[analysis.about]
         else:
             part = self.linear_part()

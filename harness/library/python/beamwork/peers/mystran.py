@@ -57,7 +57,7 @@ class Bars(Model):
         require_known(scene)
         kinds = {a.kind for a in scene.analyses.values()}
         if kinds != {"linear"} and any(scene.motion_value(m, 1.0) != 0 for n in scene.nodes.values() for m in n.drive.values()):
-            raise Refused("drive: this driver has driven nodes in linear analyses only")
+            raise Refused("drive: the driver supports driven nodes only in linear analyses")
         self.loads = self._loads()
         self.bulk = self._structure() + self.loads
         self.supports = "SPC = 1\n" if "SPC" in self.bulk else ""

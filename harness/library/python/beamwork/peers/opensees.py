@@ -267,7 +267,7 @@ class Corotational(Model):
             self.build()
         rigid = rigid_motions(self.scene, self.mesh)
         if rigid and analysis.about is not None:
-            raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
+            raise Refused("about: the driver does not support modes of a loaded structure if its supports leave it free to move")
         self._add_inertia()
         M, K = self.matrices()
         found, vectors = spectrum(K, M, rigid)

@@ -50,7 +50,7 @@ class Rod(Model):
         self.ends = [str(mesh.nodes[n].name) for n in (first, last)]
         self.holds = [_pyelastica_motion.fixed(scene, h) for h in held]
         if "" in self.holds or (sorted(map(len, held)) != [0, 6] and not self._only_moves()):
-            raise Refused("hold: this driver has only rods with one clamped and one free end")
+            raise Refused("hold: the driver supports only rods with one clamped and one free end")
         self.reversed = len(held[0]) == 0
         self.section = mesh.elements[0].member.section
         if not all(map(math.isfinite, self.section.GA)):
@@ -75,18 +75,18 @@ class Rod(Model):
         if self.number < 2:
             raise Refused("elements: a rod of this program has two or more")
         if len(self.scene.members) != 1:
-            raise Refused("members: this driver has only one rod")
+            raise Refused("members: the driver supports only one rod")
         for load in self.scene.loads:
             if self._only_moves() and _pyelastica_motion.accepts(load):
                 continue
             if load.follower or load.kind not in ("force", "moment"):
-                raise Refused("loads: this driver has only dead forces and moments at the free end")
+                raise Refused("loads: the driver supports only dead forces and moments at the free end")
             if self.scene.nodes[str(load.node)].hold:
-                raise Refused("loads: this driver has no loads on the clamped end")
+                raise Refused("loads: the driver does not support loads on the clamped end")
         if len(self.scene.nodes) != 2:
-            raise Refused("nodes: this driver has only the two nodes at the ends of a rod")
+            raise Refused("nodes: the driver supports no nodes except the two at the ends of the rod")
         if any(node.drive for node in self.scene.nodes.values()):
-            raise Refused("drive: this driver has no driven nodes")
+            raise Refused("drive: the driver does not support driven nodes")
 
     def _rod(self) -> Any:
         """Returns a rod whose first node is the clamped one. Directors: y, z and x of the section;
@@ -136,7 +136,7 @@ class Rod(Model):
     def solve(self, analysis: Analysis) -> Answer:
         if analysis.kind == "motion":
             if not self._only_moves():
-                raise Refused("analyses: this driver has motions only in scenes without other analyses")
+                raise Refused("analyses: the driver supports motions only in scenes without other analyses")
             self.rod = self._rod()
             _pyelastica_motion.set_masses(self, self.rod)
             return _pyelastica_motion.motion(self, analysis, self.holds)

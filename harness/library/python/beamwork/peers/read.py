@@ -203,7 +203,7 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     if q.raw.get("kind", "limit") != "limit":
         return f"kind: drivers find limit points, not a {q.raw['kind']}"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
-        return f"about: the driver has no {analysis.kind} about a {scene.analyses[analysis.about].kind}"
+        return f"about: the driver does not support {analysis.kind} analyses about a state of a {scene.analyses[analysis.about].kind} analysis"
     if q.kind in ("compliance", "stiffness") and analysis.raw.get("moments", "spatial") != "spatial":
         return "moments: drivers use the spatial convention only"
     return ""
@@ -271,7 +271,7 @@ def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[flo
     values = [float(q.factor * v + q.offset) for v in _state_values(q, answer)]
     take = q.raw.get("take", "last")
     if len(values) != len(stations) and (len(values) != 1 or take != "last" or "at" in q.raw):
-        raise Refused(f"{q.kind}: the driver gives {len(values)} of {len(stations)} states")
+        raise Refused(f"{q.kind}: the driver returned {len(values)} of {len(stations)} states")
     if take == "curve":
         return [[q.x["factor"] * p + q.x.get("offset", 0), v] for p, v in zip(stations, values)]
     if "at" in q.raw:
