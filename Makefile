@@ -52,7 +52,7 @@ PLANTED := $(BUILD)/planted
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(COST_COEFFICIENTS:.c=.o) $(RUN_COSTS:.c=.o) $(PACKED)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
-WIDE := elements/math/congruence.c elements/beamw/in_time.c harness/time/cayley_rows.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/*/triangular_*.c))
+WIDE := elements/math/congruence.c elements/beamw/in_time.c harness/time/cayley_rows.c harness/numerics/basis_vectors.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/*/triangular_*.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
 OBJECTS += $(WIDE:%.c=$(BUILD)/%.avx2.o)
 endif

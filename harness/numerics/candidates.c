@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/real.h"
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f)
 {
@@ -15,7 +16,7 @@ status candidates_alloc(candidates *p, const eigen_problem *problem, double sign
     p->problem = problem;
     p->sign = sign;
     p->n = problem->K->n;
-    p->work = malloc(n * sizeof *p->work);
+    p->work = malloc(2 * n * sizeof *p->work);
     p->form = malloc(n * sizeof *p->form);
     if (p->work == NULL || p->form == NULL)
         return fault_memory(f, "an eigenvalue problem");
@@ -24,8 +25,8 @@ status candidates_alloc(candidates *p, const eigen_problem *problem, double sign
 
 void candidates_free(candidates *p)
 {
-    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness,
-                         p->x,  p->work,      p->form,  p->correction};
+    void *const all[] = {p->mu, p->matrix_mu, p->stiffness, p->part,
+                         p->x,  p->work,      p->form,      p->correction};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -45,7 +46,7 @@ static status make_room(candidates *p, int room, fault *f)
 {
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
     if (room > p->room &&
-        !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
+        !(grow(&p->mu, count) && grow(&p->part, count) && grow(&p->matrix_mu, count) &&
           grow(&p->stiffness, count) && grow(&p->x, numbers)))
         return fault_memory(f, "%d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
@@ -86,8 +87,8 @@ static void sort_last(candidates *p)
 {
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
-        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness};
-        for (int k = 0; k < 4; k++) {
+        double *const numbers[] = {p->mu, p->matrix_mu, p->stiffness};
+        for (int k = 0; k < 3; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
             numbers[k][i - 1] = kept;
@@ -159,46 +160,23 @@ static void candidates_apply(candidates *p, const double x[], double y[])
             refine(p, x, y);
 }
 
-double candidates_scale(candidates *p)
-{
-    enum { POWERS = 6 };
-    double *x = p->form, before = 0, largest = 0;
-    for (int i = 0; i < p->n; i++)
-        x[i] = sin(1.7 * i) / sqrt(sparse_diagonal(p->problem->K, i));
-    for (int power = 0; power <= POWERS; power++) {
-        sparse_mul(p->problem->K, x, p->work);
-        const double size = sqrt(dense_dot(p->n, x, p->work));
-        if (power > 0 && before > 0)
-            largest = fmax(largest, size / before);
-        if (size > 0)
-            for (int i = 0; i < p->n; i++)
-                x[i] /= size;
-        before = size > 0;
-        if (power < POWERS) {
-            candidates_apply(p, x, p->work);
-            memcpy(x, p->work, (size_t)p->n * sizeof *x);
-        }
-    }
-    return candidates_is_rounding(p, largest, x) ? 0 : largest;
-}
-
 /* Accepts the vector stored after the last candidate as a candidate if its mu exceeds `least`. */
 static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;
     double *vector = p->x + (size_t)p->count * (size_t)p->n;
-    sparse_mul(e->K, vector, p->work);
-    const double length = sqrt(dense_dot(p->n, vector, p->work));
+    REAL_CHOSEN(triangular_products)(e->K, e->A, vector, p->work, p->form);
+    const double square = dense_dot(p->n, vector, p->work), length = sqrt(square),
+                 of_matrix = p->sign * dense_dot(p->n, vector, p->form) / square;
     for (int i = 0; i < p->n; i++)
         vector[i] /= length;
-    const double stiffness = K_form(p, vector);
-    const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
-    if (!(mu > least))
+    const double stiffness = K_form(p, vector),
+                 mu = e->A_energy != NULL ? p->sign * e->A_energy(e->context, vector) : of_matrix;
+    if (!(mu / stiffness > least))
         return;
-    p->mu[p->count] = mu;
+    p->mu[p->count] = mu / stiffness;
     p->stiffness[p->count] = stiffness;
-    p->matrix_mu[p->count] = p->sign * form_of(p, NULL, e->A, vector, p->form);
-    p->noise[p->count] = rounding(p, mu, vector);
+    p->matrix_mu[p->count] = of_matrix;
     p->count++;
     sort_last(p);
 }
@@ -241,6 +219,21 @@ double *candidates_products(const candidates *p)
     return products;
 }
 
+/* Returns y^T K y, where y = K^-1 s A x - mu x for candidate i, and sets p->form to A y. If the
+ * solutions are not refined, the assembly of K has hardly changed its forms. */
+static double remainder_of(candidates *p, int i)
+{
+    const eigen_problem *e = p->problem;
+    const double *x = p->x + (size_t)i * (size_t)p->n;
+    double *y = p->work, *Ky = p->work + p->n;
+    candidates_apply(p, x, y);
+    for (int k = 0; k < p->n; k++)
+        y[k] -= p->mu[i] * x[k];
+    const double refined = p->correction != NULL ? K_form(p, y) : 0;
+    REAL_CHOSEN(triangular_products)(e->K, e->A, y, Ky, p->form);
+    return p->correction != NULL ? refined : dense_dot(p->n, y, Ky);
+}
+
 /* Error bound: if x^T K x = 1 and y = K^-1 s A x - mu x, the distance from mu to an eigenvalue is
  * at most sqrt(y^T K y). The component of y along a mode k with a larger eigenvalue, c_k = x_k^T K
  * y = x_k^T s A y/mu_k, is due to a part c_k/(mu_k - mu) of this mode in x. This part changes the
@@ -248,19 +241,12 @@ double *candidates_products(const candidates *p)
  * distinguished. The remaining part of y contributes its full length. */
 void candidates_evaluate(candidates *p, int i, double *residual, double *error)
 {
-    const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
-    double *y = p->work;
-    candidates_apply(p, x, y);
-    for (int k = 0; k < p->n; k++)
-        y[k] -= mu * x[k];
-    const double square = K_form(p, y) / (p->stiffness[i] * mu * mu);
+    const double mu = p->mu[i], square = remainder_of(p, i) / (p->stiffness[i] * mu * mu);
     double rest = square;
-    sparse_mul(p->problem->A, y, p->form);
+    REAL_CHOSEN(basis_measure)(p->n, i, p->x, p->form, p->part);
     *error = 0;
     for (int k = 0; k < i; k++) {
-        const double part =
-                         dense_dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu,
-                     apart = p->mu[k] / mu - 1;
+        const double part = p->part[k] / p->mu[k] / mu, apart = p->mu[k] / mu - 1;
         rest -= part * part;
         *error += part * part >= apart * apart ? apart : part * part / apart;
     }
@@ -300,16 +286,27 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
     return outcome;
 }
 
+/* Returns the change of the Rayleigh quotient of candidate i due to rounding of its sums. */
+static double noise(const candidates *p, int i)
+{
+    return rounding(p, p->mu[i], p->x + (size_t)i * (size_t)p->n);
+}
+
 /* Returns the number of candidates above the cluster that contains rank `wanted`, and sets *top to
- * the largest value of the cluster. */
-static int above_cluster(const candidates *p, int wanted, double *top)
+ * the largest value of the cluster, and *noise_of_top to its rounding error. */
+static int above_cluster(const candidates *p, int wanted, double *top, double *noise_of_top)
 {
     const double *mu = p->matrix_mu;
     int q = wanted - 1;
     *top = mu[q];
-    while (q > 0 &&
-           mu[q - 1] - *top <= (close + 16 * fmax(p->noise[q - 1], p->noise[q])) * mu[q - 1])
+    *noise_of_top = noise(p, q);
+    while (q > 0) {
+        const double next = noise(p, q - 1);
+        if (mu[q - 1] - *top > (close + 16 * fmax(next, *noise_of_top)) * mu[q - 1])
+            break;
         *top = fmax(*top, mu[--q]);
+        *noise_of_top = next;
+    }
     return q;
 }
 
@@ -317,9 +314,9 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
                                 fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
-    double low;
-    const int q = above_cluster(p, wanted, &low);
-    const double distinguishable = 2 * close + 32 * p->noise[q], near = 1e-2;
+    double low, rounded;
+    const int q = above_cluster(p, wanted, &low, &rounded);
+    const double distinguishable = 2 * close + 32 * rounded, near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, distinguishable)))
                               : low * (1 + distinguishable);
     int above = 0;
@@ -330,8 +327,9 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
         if (outcome == STATUS_SINGULAR)
             continue;
         TRY(outcome);
+        const int confirmed = *missing == above - q;
         *missing = above - q;
-        if (*missing == 0)
+        if (*missing == 0 || confirmed)
             break;
     }
     if (*missing < 0)

@@ -34,46 +34,75 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Adds candidates from a Lanczos run in the complement of the current candidates. mu[count],
- * Kx[candidates x n]. */
-static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
+/* What the iterations have found out about all eigenvalues of a problem. */
+typedef struct spectrum {
+    double scale;   /* largest magnitude */
+    double least;   /* eigenvalues up to this value count as zero */
+    int is_nothing; /* 1: A is zero or a rounding error */
+} spectrum;
+
+/* Adds candidates from a Lanczos run in the complement of the current candidates.
+ * Kx[candidates x n]. certain 1: so many eigenvalues exist. */
+static status take_lanczos(candidates *p, int count, int certain, const double Kx[], spectrum *s,
                            fault *f)
 {
     const eigen_problem *e = p->problem;
-    const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, Kx};
-    int found = 0;
-    double *x;
-    TRY(lanczos_largest(&l, count, &found, mu, &x, f));
-    return candidates_take(p, found, x, least, f);
+    const int first = p->count == 0;
+    const double least = fmax(negligible, candidates_least(p->n, 1));
+    const lanczos_problem l = {.K = e->K,
+                               .A = e->A,
+                               .K_factor = e->K_factor,
+                               .sign = p->sign,
+                               .known = p->count,
+                               .KX = Kx,
+                               .scale = s->scale,
+                               .least = least,
+                               .certain = certain,
+                               .spare = first ? SPARE : 0};
+    lanczos_result found;
+    TRY(lanczos_largest(&l, count, &found, f));
+    s->scale = found.scale;
+    s->least = least * found.scale;
+    if (found.found == 0) {
+        s->is_nothing =
+            first && (found.scale == 0 || candidates_is_rounding(p, found.scale, found.x));
+        free(found.x);
+        return STATUS_OK;
+    }
+    TRY(candidates_take(p, found.found, found.x, s->least, f));
+    s->is_nothing =
+        first && p->count > 0 && candidates_is_rounding(p, p->mu[0] * p->stiffness[0], p->x);
+    p->certain = p->count > 0;
+    return STATUS_OK;
 }
 
-static status run_lanczos(candidates *p, int wanted, double least, fault *f)
+static status run_lanczos(candidates *p, int wanted, int certain, spectrum *s, fault *f)
 {
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
-    double *mu = malloc((size_t)count * sizeof *mu), *Kx = candidates_products(p);
-    const status outcome = mu != NULL && Kx != NULL ? take_lanczos(p, count, mu, Kx, least, f)
-                                                    : fault_memory(f, "%d eigenvectors", count);
-    free(mu);
+    double *Kx = candidates_products(p);
+    const status outcome = Kx != NULL ? take_lanczos(p, count, certain, Kx, s, f)
+                                      : fault_memory(f, "%d eigenvectors", p->count);
     free(Kx);
     return outcome;
 }
 
-/* Sets *exist to the number of existing eigenvalues. They are counted above smaller and smaller
- * values until their number is at least `enough` or the value is `least`. */
-static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
-                             eigen_result *r, fault *f)
+/* Reduces *requested to the number of existing eigenvalues. They are counted above smaller and
+ * smaller values until their number suffices or the value is the smallest one that counts. */
+static status count_existing(candidates *p, const spectrum *of, int *requested, eigen_result *r,
+                             fault *f)
 {
     const double step = 30;
-    *exist = 0;
-    for (double s = scale; *exist < enough && s > least;) {
+    int exist = 0;
+    for (double s = of->scale; exist < *requested && s > of->least;) {
         int above = 0;
-        s = fmax(s / step, least);
+        s = fmax(s / step, of->least);
         const status outcome = candidates_count_above(p, s, &above, r, f);
         if (outcome == STATUS_FAULT)
             return outcome;
-        if (outcome == STATUS_OK && above > *exist)
-            *exist = above;
+        if (outcome == STATUS_OK && above > exist)
+            exist = above;
     }
+    *requested = exist < *requested ? exist : *requested;
     return STATUS_OK;
 }
 
@@ -84,25 +113,29 @@ static status solve_densely(candidates *up, candidates *down, const int wanted[2
     return eigen_dense_add((candidates *[]){up, down}, wanted, f);
 }
 
-static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
+/* Finds the wanted candidates and proves that none is missing. Several runs find vectors of nearly
+ * equal eigenvalues one after the other, as any combinations, which are separated at the end. */
+static status fill(candidates *p, int wanted, spectrum *s, eigen_result *r, fault *f)
 {
-    int exist;
-    TRY(count_existing(p, wanted + SPARE, scale, least, &exist, r, f));
-    const int requested = wanted < exist ? wanted : exist;
-    int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
-    for (int pass = 0; missing > 0; pass++) {
-        if (pass == MAX_PASSES || p->count + missing >= p->n)
+    int requested = wanted, missing = wanted + SPARE, pass = 0;
+    for (; missing > 0; pass++) {
+        if (pass == MAX_PASSES + requested || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%d of %d eigenvalues were not found in %d attempts; use another "
                              "number of elements",
                              missing, requested, pass);
         candidates_count_rest(p);
-        TRY(run_lanczos(p, missing, least, f));
+        p->count = p->count < wanted ? p->count : wanted; /* the spare vectors are inaccurate */
+        TRY(run_lanczos(p, missing, pass > 0, s, f));
+        if (s->is_nothing)
+            return STATUS_OK;
+        if (pass == 0 && p->count < wanted)
+            TRY(count_existing(p, s, &requested, r, f));
         missing = requested - p->count;
-        if (missing <= 0)
+        if (missing <= 0 && requested > 0)
             TRY(candidates_count_missing(p, requested, &missing, r, f));
     }
-    return STATUS_OK;
+    return pass > 1 ? polish(p, f) : STATUS_OK;
 }
 
 static status keep_first(candidates *p, eigen_result *r, fault *f)
@@ -120,15 +153,17 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
 static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
                          fault *f)
 {
-    const double scale = wanted > 0 ? candidates_scale(p) : 0;
     fault why = {""};
-    out->rounding += wanted > 0 && scale == 0;
-    if (scale == 0)
+    spectrum s = {0};
+    if (wanted == 0)
         return STATUS_OK;
-    out->status =
-        fill(p, wanted, scale, fmax(negligible * scale, candidates_least(p->n, scale)), r, &why);
-    if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
+    out->status = fill(p, wanted, &s, r, &why);
+    if (out->status == STATUS_OK && s.is_nothing) {
+        out->rounding++;
         p->count = 0;
+    }
+    if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
+        p->count = p->certain = 0;
         out->status = solve_densely(side == 0 ? p : NULL, side == 0 ? NULL : p,
                                     (int[]){wanted, wanted}, r, &why);
     }
@@ -145,7 +180,7 @@ static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double uncertain_below = 1e-6;
     for (int i = 0; i < p->count; i++)
-        if ((i == 0 || p->mu[i] < uncertain_below * p->mu[0]) &&
+        if ((i == 0 ? !p->certain : p->mu[i] < uncertain_below * p->mu[0]) &&
             candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
                                    p->x + (size_t)i * (size_t)p->n)) {
             out->rounding = p->count - i;

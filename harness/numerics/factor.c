@@ -218,9 +218,17 @@ void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[])
     for (int c = 0; c < columns && fa->by.solve != NULL; c++)
         fa->by.solve(fa->by.context, 0, x + c * stride);
     if (fa->by.solve == NULL && fa->upper && fa->symmetric != NULL)
-        factor_symmetric_solve(fa->symmetric, columns, stride, x);
+        factor_symmetric_solve(fa->symmetric, TRIANGULAR_WHOLE, columns, stride, x);
     if (fa->by.solve == NULL && !fa->upper && fa->unsymmetric != NULL)
         factor_unsymmetric_solve(fa->unsymmetric, columns, stride, x);
+}
+
+void factor_solve_root(matrix_factor *fa, triangular_part part, int columns, int stride, double x[])
+{
+    const double entries = (double)factor_count(fa).entries;
+    numerics_work_add(&(numerics_work){.solutions = part == TRIANGULAR_ROOT ? columns : 0,
+                                       .solved_entries = columns * entries / 2});
+    factor_symmetric_solve(fa->symmetric, part, columns, stride, x);
 }
 
 void factor_solve_transposed(matrix_factor *fa, double x[])

@@ -241,7 +241,8 @@ status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_co
     return check_pivots(fs, a->value, counts, weakest, ratio);
 }
 
-void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[])
+void factor_symmetric_solve(factor_symmetric *fs, triangular_part part, int columns, int stride,
+                            double x[])
 {
     const triangular_factors t = {.n = fs->n,
                                   .order = fs->order,
@@ -251,5 +252,5 @@ void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, doubl
                                   .D = fs->D,
                                   .runs = fs->groups.columns,
                                   .run = fs->groups.of_columns};
-    REAL_CHOSEN(triangular_solve)(&t, columns, stride, x, fs->rest);
+    REAL_CHOSEN(triangular_solve)(&t, part, columns, stride, x, fs->rest);
 }

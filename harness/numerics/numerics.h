@@ -130,7 +130,7 @@ double factor_condition(matrix_factor *fa, const sparse *a);
  *
  * Buckling: A = -G, mu = 1/lambda. Vibration: A = M, mu = 1/omega^2 (for a structure without
  * supports, K + shift M replaces K). Small problems are solved with dense matrices (LAPACK), large
- * problems by the Lanczos method in the inner product of K (ARPACK). Each mu is the quotient of two
+ * problems by the Lanczos method in the inner product of K. Each mu is the quotient of two
  * quadratic forms, which the caller can evaluate more accurately than the matrices do. In large
  * problems, the inertia of K - A/s with s between two eigenvalues proves that no eigenvalue is
  * missing, including repeated eigenvalues. */

@@ -16,11 +16,11 @@ typedef struct candidates {
     double *mu; /* [room] descending */
     /* [room] Rayleigh quotient of the assembled matrices, which includes their rounding errors */
     double *matrix_mu;
-    double *noise;     /* [room] change of matrix_mu due to rounding of its sums */
-    double *stiffness; /* [room] x^T K x from the caller's function */
-    double *x;         /* [room x n] vectors, with x^T K x = 1 for the matrix K */
-    double *work, *form;
-    int refinements;    /* number of refinements of every solution */
+    double *stiffness;          /* [room] x^T K x from the caller's function */
+    double *x;                  /* [room x n] vectors, with x^T K x = 1 for the matrix K */
+    int certain;                /* 1: the first candidate is known not to be a rounding error */
+    double *work, *form, *part; /* [2 n], [n], [room] work space */
+    int refinements;            /* number of refinements of every solution */
     double *correction; /* [n] work space for refined solutions; NULL: solutions are not refined */
     sparse shifted;     /* K - sign A/mu, allocated when it is first needed */
     matrix_factor *shifted_factor;
@@ -28,7 +28,6 @@ typedef struct candidates {
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-double candidates_scale(candidates *p);
 /* Returns 1 if x^T A x could be as large as `energy` because of rounding alone. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
 /* Returns the largest relative change of x^T K x due to the assembly of K, over the first `count`
@@ -126,6 +125,18 @@ void estimate_pair(motion_estimate *, int i, const double re[], const double im[
 /* Computes y = K x, using K_product if it is available. */
 void estimate_stiffness(const gyroscopic_problem *, const double x[], double y[]);
 
+/* What is solved with P A P^T = L D L^T: A, or one of the factors of A = R R^T with R = P^T L
+ * sqrt(D), for a positive D. The unknowns between R and R^T are in the order of elimination. */
+typedef enum triangular_part {
+    TRIANGULAR_WHOLE,
+    TRIANGULAR_ROOT,
+    TRIANGULAR_ROOT_TRANSPOSED
+} triangular_part;
+
+/* Replaces x by R^-1 x or R^-T x. The last factored matrix must be symmetric and positive
+ * definite. Counts as half a solution in the solved entries; R^-1 x counts the right-hand side. */
+void factor_solve_root(matrix_factor *, triangular_part, int columns, int stride, double x[]);
+
 /* LDL^T of a sparse symmetric matrix without pivoting (SuiteSparse AMD and LDL). The signs of D
  * give the inertia. */
 
@@ -143,8 +154,9 @@ void factor_symmetric_free(factor_symmetric *fs);
  * sum. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
-/* Solves in place for `columns` right-hand sides. */
-void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
+/* Solves in place for `columns` right-hand sides, with the whole matrix or a part of it. */
+void factor_symmetric_solve(factor_symmetric *fs, triangular_part, int columns, int stride,
+                            double x[]);
 
 /* LU of a sparse unsymmetric matrix. A matrix with a symmetric pattern is factored by dense fronts
  * without exchanges of rows. If this is not accurate, it is factored by SuiteSparse KLU. */
@@ -244,24 +256,37 @@ int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
 /* Computes the index from the first `count` pairs found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
 
-/* Implicitly restarted Lanczos (ARPACK) for the algebraically largest eigenvalues of s A x = mu K
- * x. */
+/* Lanczos method for the algebraically largest eigenvalues of s A x = mu K x. */
 
 typedef struct lanczos_problem {
     const sparse *K, *A;
     matrix_factor *K_factor;
     double sign;
     int known;        /* number of eigenvectors that are removed from the problem */
-    const double *X;  /* [known x n] these eigenvectors, K-orthonormal */
-    const double *KX; /* [known x n] K times each of these eigenvectors */
+    const double *KX; /* [known x n] K times each of these eigenvectors, which are K-orthonormal */
+    /* largest magnitude of an eigenvalue that is known already; eigenvalues up to `least` times the
+     * largest magnitude count as zero */
+    double scale, least;
+    int certain; /* 1: the requested eigenvalues exist */
+    int spare;   /* number of the requested eigenvalues, the last ones, that may be inaccurate */
 } lanczos_problem;
 
-/* Computes `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order and their
- * K-orthonormal vectors (*x)[wanted x n], which the caller frees. *found: number of values that
- * have converged; smaller than `wanted` if the iteration ends early. NOT_CONVERGED: no value has
- * converged, or ARPACK fails. */
-status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
-                       fault *f);
+typedef struct lanczos_result {
+    int found;    /* number of values that have converged */
+    double scale; /* largest magnitude of an eigenvalue */
+    double *x;    /* [found x n] vectors, which the caller frees; found 0: [n], the vector of the
+                     eigenvalue with the largest magnitude */
+} lanczos_result;
+
+/* Computes the K-orthonormal vectors of `wanted` <= n - known - 1 eigenvalues in descending order.
+ * Finds fewer if the others count as zero, are copies of an eigenvalue, or have not converged.
+ * NOT_CONVERGED: no value has converged. */
+status lanczos_largest(const lanczos_problem *p, int wanted, lanczos_result *, fault *f);
+/* Products of vectors V[count x n] with w[n]: part[count] = V w, and w -= V^T part. */
+void basis_measure_plain(int n, int count, const double V[], const double w[], double part[]);
+void basis_measure_avx2(int n, int count, const double V[], const double w[], double part[]);
+void basis_subtract_plain(int n, int count, const double V[], const double part[], double w[]);
+void basis_subtract_avx2(int n, int count, const double V[], const double part[], double w[]);
 
 /* Replaces the candidates by Ritz vectors of K^-1 A times the candidates, computed with refined
  * solutions (candidates_refine). */
@@ -331,7 +356,18 @@ int triangular_groups_find(const triangular_pattern *, int L_row[], triangular_g
 void triangular_groups_place(const triangular_groups *, const int column[], int row[]);
 void triangular_groups_free(triangular_groups *);
 
-/* Solves P^T L D L^T P x = b for one or several right-hand sides. */
+enum { TRIANGULAR_MATRICES = 2 };
+
+/* Compute y = A x from the upper triangle of A, and the products with two matrices of the same
+ * pattern. */
+void triangular_product_plain(const sparse *a, const double x[], double y[]);
+void triangular_product_avx2(const sparse *a, const double x[], double y[]);
+void triangular_products_plain(const sparse *a, const sparse *b, const double x[], double ax[],
+                               double bx[]);
+void triangular_products_avx2(const sparse *a, const sparse *b, const double x[], double ax[],
+                              double bx[]);
+
+/* Solves with P^T L D L^T P, or a part of it, for one or several right-hand sides. */
 
 enum { TRIANGULAR_TOGETHER = 4 };
 
@@ -350,9 +386,9 @@ typedef struct triangular_factors {
 
 /* Solves in place. x: `columns` right-hand sides of length n, whose starts are `stride` numbers
  * apart. work: [TRIANGULAR_TOGETHER n]. */
-void triangular_solve_plain(const triangular_factors *, int columns, int stride, double x[],
-                            double work[]);
-void triangular_solve_avx2(const triangular_factors *, int columns, int stride, double x[],
-                           double work[]);
+void triangular_solve_plain(const triangular_factors *, triangular_part, int columns, int stride,
+                            double x[], double work[]);
+void triangular_solve_avx2(const triangular_factors *, triangular_part, int columns, int stride,
+                           double x[], double work[]);
 
 #endif

@@ -1,4 +1,4 @@
-#include "harness/numerics/numerics.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "elements/math/real.h"
 #include "elements/math/scalar.h"
 
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f)
@@ -37,32 +38,14 @@ void sparse_copy_leading(const sparse *whole, sparse *leading)
                (size_t)(leading->column[j + 1] - leading->column[j]) * sizeof *leading->value);
 }
 
-/* Adds a x to y for a matrix of which only the upper triangle is stored. If the diagonal entry is
- * stored, it is the last entry of its column. */
-static void mul_symmetric(const sparse *a, const double x[], double y[])
-{
-    for (int j = 0; j < a->n; j++) {
-        int end = a->column[j + 1];
-        const double xj = x[j];
-        double sum = 0;
-        if (end > a->column[j] && a->row[end - 1] == j)
-            sum = a->value[--end] * xj;
-        for (int k = a->column[j]; k < end; k++) {
-            y[a->row[k]] += a->value[k] * xj;
-            sum += a->value[k] * x[a->row[k]];
-        }
-        y[j] += sum;
-    }
-}
-
 void sparse_mul(const sparse *a, const double x[], double y[])
 {
-    for (int j = 0; j < a->n; j++)
-        y[j] = 0;
     if (a->symmetric) {
-        mul_symmetric(a, x, y);
+        REAL_CHOSEN(triangular_product)(a, x, y);
         return;
     }
+    for (int j = 0; j < a->n; j++)
+        y[j] = 0;
     for (int j = 0; j < a->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++)
             y[a->row[k]] += a->value[k] * x[j];

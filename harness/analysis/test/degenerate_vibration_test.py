@@ -79,6 +79,18 @@ class Degenerate(ProgramTest):
             self.same(found[6:], [22.373285 * WAVE] * 2, 3 * within, formulation)
             self.same(found[6:7], found[7:], 1e-9, formulation)
 
+    def test_pairs_of_a_free_ring(self):
+        corners = [("e", [1, 0, 0]), ("n", [0, 1, 0]), ("w", [-1, 0, 0]), ("s", [0, -1, 0])]
+        nodes = ", ".join(f"{name}: {{at: {at}}}" for name, at in corners)
+        members = ", ".join(
+            f"m_{name}: {{from: {name}, to: {corners[(i + 1) % 4][0]}, section: s, y: {[-x for x in at]}, curvature: [0, 0, 1]}}"
+            for i, (name, at) in enumerate(corners))
+        for formulation in self.each():
+            for n in (7, 8):
+                found = self.found(formulation, nodes, members, wanted=18, n=n)
+                self.assertEqual(found[:6], [0] * 6, formulation)
+                self.same(found[6::2], found[7::2], 1e-11, formulation, n)
+
     def test_nothing_has_mass(self):
         for nodes in (HELD, FREE):
             self.refused(2, "v: the structure has no mass; add a density or a mass to a section, or a mass to a node",
