@@ -46,7 +46,6 @@ find_libraries() {
     have_header klu.h || need libsuitesparse-dev
     pkg-config --exists yaml-0.1 2>/dev/null || need libyaml-dev
     pkg-config --exists zlib 2>/dev/null || need zlib1g-dev
-    pkg-config --exists arpack 2>/dev/null || need libarpack2-dev
     pkg-config --exists jansson 2>/dev/null || need libjansson-dev
 }
 
@@ -83,7 +82,7 @@ fi
 [ "$command" = build ] || exit 0
 
 flags=$2
-libraries="$(pkg-config --libs gsl lapacke hdf5 arpack jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
+libraries="$(pkg-config --libs gsl lapacke hdf5 jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 mkdir -p "$(dirname "$flags")"
 
 # Shared libraries that take longer to load than most solutions: HDF5 of Debian loads thirty others (curl, Kerberos, ...), and LAPACKE
@@ -109,7 +108,7 @@ if printf '%s\n' '#include <lapacke.h>' 'int main(void) { lapack_int pivot; doub
     program=$(from_archive "$program" lapacke "-l:liblapacke.a")
 fi
 {
-    echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson yaml-0.1 zlib | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
+    echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 jansson yaml-0.1 zlib | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
     echo "DEP_LIBS := $libraries"
     echo "PROGRAM_LIBS := $program"
 } >"$flags.new"
