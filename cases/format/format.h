@@ -72,7 +72,7 @@ typedef struct document_node {
      * if the characters do not correspond to columns, for example in a string with escapes or
      * inserted names. */
     int inset;
-    const char *text;            /* without control characters */
+    const char *text;            /* text without control characters */
     int count;                   /* number of entries of a list or map */
     struct document_node **item; /* values [count] */
     struct document_node **key;  /* keys [count], or NULL for a list */

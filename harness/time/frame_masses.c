@@ -324,7 +324,7 @@ double account_size(const account *a)
 }
 
 /* Returns 1 if the requested scheme may lose energy: fixed steps, or generalized-alpha with more
- * damping than rho_inf = 0.9. If 3 alpha_f - alpha_m <= 1, as for all values of `rho`, alpha_f -
+ * damping than rho = 0.9. If 3 alpha_f - alpha_m <= 1, as for all values of `rho`, alpha_f -
  * alpha_m = (1 - rho)/(1 + rho), where rho is the spectral radius at infinite frequency. */
 static int account_loses(const scene_motion *how)
 {

@@ -143,7 +143,7 @@ enum {
     ACCOUNT_STEPS = 10
 }; /* number of steps after the start or a discontinuity in which the energy is not checked */
 /* Limits relative to account_size: unexplained energy gain that stops a motion, energy loss that is
- * reported, and energy loss that stops a motion, unless its steps are fixed or rho_inf is below 0.9
+ * reported, and energy loss that stops a motion, unless its steps are fixed or rho is below 0.9
  */
 extern const double account_gained, account_stated, account_lost;
 

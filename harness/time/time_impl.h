@@ -41,7 +41,7 @@ double work_trapezoid(outer_work *, const motion_state *from, const motion_state
 double account_most(const account *, double part, double rounding);
 
 /* Checks the energy balance. NOT_CONVERGED: the unexplained gain exceeds account_gained, or the
- * loss exceeds account_lost although steps are not fixed and rho_inf is at least 0.9. rounding [J]:
+ * loss exceeds account_lost although steps are not fixed and rho is at least 0.9. rounding [J]:
  * see balance_rounding. */
 status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
@@ -509,7 +509,7 @@ cayley_forces_function cayley_turn_forces_plain, cayley_turn_forces_avx2;
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
 /* Checks whether the scheme allows massless coordinates. REFUSED: there are massless coordinates,
- * and the scheme is generalized-alpha with alpha_f <= alpha_m, for example with rho_inf = 1. */
+ * and the scheme is generalized-alpha with alpha_f <= alpha_m, for example with rho = 1. */
 status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
