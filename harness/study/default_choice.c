@@ -300,21 +300,44 @@ static void refine(const scene *s, candidate_run *r)
     r->tried++;
 }
 
-/* Repeatedly solves the next mesh of the candidate for which this mesh has the lowest cost, until a
- * candidate has converged. Returns this candidate; NULL: none converges within the limits. */
+/* Returns the last change; 0: fewer than two meshes have been solved. */
+static double known_change(const candidate_run *r)
+{
+    return r->tried < 2 ? 0 : r->last.largest;
+}
+
+/* Returns the candidate whose next mesh has the lowest cost. If costs are equal within the
+ * error of the cost model, the candidate with the smallest known change is returned, and of
+ * these the first. NULL: all are exhausted. */
+static candidate_run *next_candidate(const scene *s, candidate_run of[], int count)
+{
+    const double equal = 1.17; /* error of half of the ratios of costs (docs/theory/cost.md) */
+    candidate_run *out = NULL;
+    double least = INFINITY;
+    for (int i = 0; i < count; i++)
+        if (!exhausted(s, &of[i]))
+            least = fmin(least, of[i].next);
+    for (int i = 0; i < count; i++) {
+        candidate_run *r = &of[i];
+        if (exhausted(s, r) || r->next > equal * least)
+            continue;
+        if (out == NULL || known_change(r) < known_change(out))
+            out = r;
+    }
+    return out;
+}
+
+/* Repeatedly solves the next mesh of a candidate until one has converged. Returns this candidate;
+ * NULL: none converges within the limits. */
 static candidate_run *run_candidates(const scene *s, candidate_run of[], int count)
 {
-    for (;;) {
-        candidate_run *lowest_cost = NULL;
-        for (int i = 0; i < count; i++)
-            if (!exhausted(s, &of[i]) && (lowest_cost == NULL || of[i].next < lowest_cost->next))
-                lowest_cost = &of[i];
-        if (lowest_cost == NULL)
-            return NULL;
-        refine(s, lowest_cost);
-        if (has_converged(s, lowest_cost))
-            return lowest_cost;
+    candidate_run *next;
+    while ((next = next_candidate(s, of, count)) != NULL) {
+        refine(s, next);
+        if (has_converged(s, next))
+            return next;
     }
+    return NULL;
 }
 
 static int has_curves(const scene *s)
