@@ -276,7 +276,7 @@ class NamesTest(SceneCase):
 
     def test_export(self):
         alone = re.sub(r"springs:\n.*\n", "", GUIDE)
-        self.line(2, "node peak: corners of members", "export", "--scene", self.scene(alone), "--to", "calculix")
+        self.line(2, "node peak: a node at which several members end", "export", "--scene", self.scene(alone), "--to", "calculix")
         free = re.sub(r"members:\n  brace.*\n|  (post|peak).*\n", "", alone).replace("warping: fixed", "warping: free")
         self.line(2, "member left.leaf: the ends of the member can warp", "export", "--scene", self.scene(free), "--to", "calculix")
 

@@ -136,7 +136,8 @@ static void design_tests(void)
     axis_read(&box, "a=0..1/4", &parted, NULL);
     is_refused(DESIGN_GRID, open, 0, "the number of parts is missing");
     is_refused(DESIGN_SOBOL, open, 0, "--points");
-    is_refused(DESIGN_SOBOL, &parted, 10, "'/4' applies only to a grid; remove it");
+    is_refused(DESIGN_SOBOL, &parted, 10,
+               "'/4' applies only to a grid, and --design gives another kind of points; remove it");
 }
 
 enum { RUNS = 5 };

@@ -137,7 +137,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             ((*FLIGHT, "--integrator", "euler"), "--integrator 'euler'"),
             ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
             ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),
-            (("free_flight_space", "-n", "2,4"), "one mesh"),
+            (("free_flight_space", "-n", "2,4"), "only one number of elements"),
             ((*FLIGHT, "--vary", "stiffening=1..2"), "the number of parts is missing"),
         ):
             done = run(*arguments)

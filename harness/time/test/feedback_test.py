@@ -143,7 +143,7 @@ class Feedback(ProgramTest):
             self.assertEqual("all members at this node release its rotation about (0, 1, 0)" in done.stderr, code == 2, done.stderr)
         self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
             "radau", "radau, about: held"), "", "(static): load motor (feedback) acts only in motions, harmonic")
-        self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store the integral of the error",
+        self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): the integral of the error cannot be stored; remove --save-state",
                      "--save-state", self.folder / "end.h5")
 
 
