@@ -156,6 +156,12 @@ class Report(ProgramTest):
             self.assertLessEqual(sum(len(t.split()) for _, t in titles), 13)
             self.assertEqual([t for more, t in titles if "aria-current" in more], [title])
 
+    def test_entities(self):
+        for page in self.site.glob("*.html"):
+            markup = re.sub(r"(?s)<(script|style).*?</\1>", "", page.read_text(encoding="utf-8"))
+            broken = re.search(r"[^&](nbsp|shy|amp|lt|gt);", markup)
+            self.assertIsNone(broken, f"{page.name}: {broken}")
+
     def test_size(self):
         for page in self.site.glob("*.html"):
             self.assertLess(page.stat().st_size, 500_000, page.name)
