@@ -288,7 +288,7 @@ $(BUILD)/identity: FORCE
 $(BUILD)/harness/formulations/environment.o: $(BUILD)/identity
 $(BUILD)/harness/formulations/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_RELEASED='"$(RELEASED)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
-# HDF5=shared: the program loads the shared library of HDF5, as packages of a distribution should.
+# HDF5=shared: the program loads the shared libraries of HDF5, LAPACK and BLAS, as packages of a distribution should.
 HDF5 ?=
 $(BUILD)/program_libraries: FORCE
 	@mkdir -p $(@D); echo '$(HDF5) $(PROGRAM_LIBS)' | cmp -s - $@ || echo '$(HDF5) $(PROGRAM_LIBS)' >$@

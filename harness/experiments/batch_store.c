@@ -397,7 +397,7 @@ static void name_blas(char *out, size_t size)
              realpath(where.dli_fname, path) != NULL)
         snprintf(out, size, "%.200s", strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path);
     else
-        snprintf(out, size, "unknown");
+        snprintf(out, size, product == NULL ? "a static library" : "unknown");
 }
 
 machine node_here(void)

@@ -85,8 +85,8 @@ flags=$2
 libraries="$(pkg-config --libs gsl lapacke hdf5 jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 mkdir -p "$(dirname "$flags")"
 
-# Shared libraries that take longer to load than most solutions: HDF5 of Debian loads thirty others (curl, Kerberos, ...), and LAPACKE
-# resolves thousands of symbols. The program uses their static libraries if these link without other libraries.
+# Shared libraries that take longer to load than most solutions: HDF5 of Debian loads thirty others (curl, Kerberos, ...), and LAPACKE,
+# LAPACK and BLAS resolve thousands of symbols. The program uses their static libraries if these link without other libraries.
 from_archive() { echo "$1 " | sed "s/ -l$2 / $3 /"; }
 links() { # LIBRARIES; the source is standard input
     ${CC:-cc} $(pkg-config --cflags hdf5 lapacke) -xc - -o "$flags.trial" $1 2>/dev/null
@@ -103,9 +103,20 @@ if printf '%s\n' '#include <hdf5.h>' 'int main(void) {' \
     links "$trial -lm"; then
     program=$(from_archive "$program" hdf5 "-l:libhdf5.a -lsz -ldl")
 fi
-if printf '%s\n' '#include <lapacke.h>' 'int main(void) { lapack_int pivot; double one = 1;' \
-    'return LAPACKE_dgesv(LAPACK_COL_MAJOR, 1, 1, &one, 1, &pivot, &one, 1); }' | links "-l:liblapacke.a -llapack -lblas -lm"; then
+solves() { # LIBRARIES of LAPACKE
+    printf '%s\n' '#include <lapacke.h>' 'int main(void) { lapack_int pivot; double one = 1;' \
+        'return LAPACKE_dgesv(LAPACK_COL_MAJOR, 1, 1, &one, 1, &pivot, &one, 1); }' | links "$1 -lm"
+}
+if solves "-l:liblapacke.a -llapack -lblas"; then
     program=$(from_archive "$program" lapacke "-l:liblapacke.a")
+fi
+# The functions of OpenBLAS that the program calls if OpenBLAS is present.
+blas="-l:liblapack.a -l:libblas.a -l:libgfortran.so.5"
+for name in set_num_threads get_config get_corename; do
+    blas="$blas -Wl,-u,openblas_$name,--export-dynamic-symbol=openblas_$name"
+done
+if solves "-l:liblapacke.a $blas"; then
+    program=$(from_archive "$program" "lapack -lblas" "$blas")
 fi
 {
     echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 jansson yaml-0.1 zlib | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"

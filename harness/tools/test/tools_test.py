@@ -37,15 +37,25 @@ class Loading(unittest.TestCase):
         if linked.read_text(encoding="ascii").startswith("shared"):
             self.skipTest("built with HDF5=shared")
         loaded = run(PROGRAM, program="ldd").stdout
-        self.assertIn("liblapack", loaded)
+        self.assertIn("libklu", loaded)
         for name in ("libhdf5", "libcurl", "libkrb5"):
             self.assertNotIn(name, loaded)
 
-    def test_no_lapacke(self):
+    def test_static_lapack(self):
         linked = pathlib.Path(PROGRAM).with_name("program_libraries").read_text(encoding="ascii")
-        if linked.startswith("shared") or "liblapacke.a" not in linked:
-            self.skipTest("needs LAPACKE as an archive")
-        self.assertNotIn("liblapacke", run(PROGRAM, program="ldd").stdout)
+        loaded = run(PROGRAM, program="ldd").stdout
+        for name in ("liblapacke", "liblapack", "libblas"):
+            if linked.startswith("shared") or f"{name}.a" not in linked:
+                self.skipTest(f"needs {name} as an archive")
+            self.assertNotIn(f"{name}.", loaded)
+        self.assertNotIn("libopenblas", loaded)
+
+    def test_static_openblas(self):
+        if " openblas_get_num_threads\n" not in run(PROGRAM, program="nm").stdout:
+            self.skipTest("needs OpenBLAS as an archive")
+        exported = run("-D", PROGRAM, program="nm").stdout
+        for name in ("set_num_threads", "get_config", "get_corename"):
+            self.assertIn(f" T openblas_{name}\n", exported)
 
 
 class Dependencies(Folder):
