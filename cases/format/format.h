@@ -132,8 +132,12 @@ FILE *line_open(const char *path);
 void line_skip_mark(FILE *from);
 /* Removes blanks at both ends of the line in place. */
 char *line_trim(char *line);
-/* Returns 1 if the line is UTF-8 without control characters other than tabs. */
-int line_is_text(const char *line);
+/* Trims a line of `length` bytes in place. Returns NULL if the line is not UTF-8, or contains
+ * control characters other than tabs. */
+char *line_text(char *line, size_t length);
+/* Error of such a line. A reader then stops, because each line of a binary file would be an
+ * error. */
+#define LINE_NOT_TEXT "the line is not UTF-8 text; give a CSV file, saved as UTF-8 text"
 /* Splits a line at commas in place, and trims the fields. A field may be in quotes, within which ""
  * stands for one quote. Returns the number of fields, or a larger number than `most` if there are
  * too many. */

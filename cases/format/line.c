@@ -71,16 +71,19 @@ static int character_length(const unsigned char *at)
     return more == 0 || long_form || beyond ? 0 : more + 1;
 }
 
-int line_is_text(const char *line)
+char *line_text(char *line, size_t length)
 {
-    const unsigned char *at = (const unsigned char *)line;
+    if (strlen(line) != length)
+        return NULL;
+    char *text = line_trim(line);
+    const unsigned char *at = (const unsigned char *)text;
     while (*at != '\0') {
-        const int length = character_length(at);
-        if (length == 0)
-            return 0;
-        at += length;
+        const int bytes = character_length(at);
+        if (bytes == 0)
+            return NULL;
+        at += bytes;
     }
-    return 1;
+    return text;
 }
 
 /* Terminates the field that starts at `at`. Returns the position of the next field, or NULL. */

@@ -45,11 +45,11 @@ static char *next_line(table_file *t, FILE *from, int *good)
     while (fgets(t->text, sizeof t->text, from) != NULL) {
         t->line++;
         const size_t length = strlen(t->text);
-        char *line = line_trim(t->text);
+        char *line = line_text(t->text, length);
         if (length + 1 == sizeof t->text)
             *good = wrong(t, "a line has more than 8000 characters", "",
                           "; remove the columns that are not used");
-        else if (!line_is_text(line))
+        else if (line == NULL)
             *good = wrong(t, "the line is not UTF-8 text", "", "; save the file as CSV in UTF-8");
         if (!*good)
             return NULL;

@@ -256,14 +256,9 @@ static void read_fields(file_reader *r, char *line)
 
 static status read_line(file_reader *r, char *line, fault *f)
 {
-    line = line_trim(line);
     if (line[0] == '\0')
         return STATUS_OK;
-    if (!line_is_text(line)) {
-        mistakes_add(r->m, r->line, 1,
-                     "the line is not UTF-8 text, or contains control characters; save the file as "
-                     "UTF-8 text");
-    } else if (line[0] == '#') {
+    if (line[0] == '#') {
         TRY(close_block(r, f));
         read_header(r, line);
     } else {
@@ -275,9 +270,15 @@ static status read_line(file_reader *r, char *line, fault *f)
 static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;
-    while (r->rows <= IMPORT_ROWS && getline(line, &room, from) >= 0) {
+    ssize_t length;
+    while (r->rows <= IMPORT_ROWS && (length = getline(line, &room, from)) >= 0) {
         r->line++;
-        TRY(read_line(r, *line, f));
+        char *text = line_text(*line, (size_t)length);
+        if (text == NULL) {
+            mistakes_add(r->m, r->line, 1, LINE_NOT_TEXT);
+            break;
+        }
+        TRY(read_line(r, text, f));
     }
     if (ferror(from))
         return fault_unreadable(f, r->path, errno);

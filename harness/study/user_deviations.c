@@ -368,9 +368,8 @@ static int quotes_are_even(const char *line)
 static status add_row(int number, char *line, int columns, user_table *out, mistakes *m, fault *f)
 {
     user_table_row row = {.line = number};
-    if (!line_is_text(line) || !quotes_are_even(line)) {
-        mistakes_add(m, number, 1,
-                     "the line is not UTF-8 text, or a quote is not closed; correct the line");
+    if (!quotes_are_even(line)) {
+        mistakes_add(m, number, 1, "a quote is not closed; correct the line");
         return STATUS_OK;
     }
     user_table_row *more = realloc(out->row, ((size_t)out->rows + 1) * sizeof *more);
@@ -406,14 +405,13 @@ static status read_lines(FILE *from, const char *columns, char **line, user_tabl
     int number = 0;
     ssize_t length;
     while ((length = getline(line, &room, from)) >= 0) {
-        if (strlen(*line) != (size_t)length) {
-            mistakes_add(
-                m, number + 1, 1,
-                "the file is not a text file, because it contains a zero byte; give a CSV file");
+        char *text = line_text(*line, (size_t)length);
+        number++;
+        if (text == NULL) {
+            mistakes_add(m, number, 1, LINE_NOT_TEXT);
             return STATUS_OK;
         }
-        char *text = line_trim(*line);
-        if (++number == 1 && strcmp(text, columns) != 0) {
+        if (number == 1 && strcmp(text, columns) != 0) {
             mistakes_add(m, 1, 1, "the first line must be %s", columns);
             return STATUS_OK;
         }

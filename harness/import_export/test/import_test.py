@@ -112,6 +112,9 @@ class Import(ProgramTest):
             self.assertIn(words, self.read(HEAD.replace(*change) + COLUMNS + ROWS, 2).stderr)
         self.assertIn("UTF-8",
                       self.read(HEAD.replace("MBDyn", "MB\x1bDyn") + COLUMNS + ROWS, 2).stderr)
+        said = self.read(bytes(range(256)) * 20, 2).stderr.splitlines()
+        self.assertIn("theirs.csv:1: the line is not UTF-8 text; give a CSV file", said[0])
+        self.assertEqual(len(said), 2, "one error, and that nothing was imported")
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
