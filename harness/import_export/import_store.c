@@ -211,6 +211,13 @@ static status read_file(store_reader *r, hid_t file)
         return fault_set(r->f, STATUS_FAULT,
                          "%.120s is not a results file of this version of beamwork; %s", r->path,
                          remedy);
+    if (H5Lexists(file, "cases", H5P_DEFAULT) <= 0) {
+        char kinds[KEPT_NAMES];
+        kept_names(file, kinds);
+        return fault_set(r->f, STATUS_REFUSED,
+                         "%.120s contains results of %.120s, not imported results; %s", r->path,
+                         kinds, remedy);
+    }
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome = read_cases(r, cases);
     if (cases >= 0)

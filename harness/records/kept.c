@@ -87,6 +87,28 @@ static status open_former(const char *path, int most_waits, hid_t *file, fault *
     return unfit(path, f);
 }
 
+void kept_names(hid_t file, char text[KEPT_NAMES])
+{
+    char name[KEPT_NAMES];
+    H5G_info_t info = {0};
+    snprintf(text, KEPT_NAMES, "%s",
+             H5Aexists(file, KEPT_SWEEP_MARK) > 0        ? KEPT_SWEEP
+             : H5Lexists(file, "cases", H5P_DEFAULT) > 0 ? "verify"
+                                                         : "");
+    const hid_t all = H5Lexists(file, KEPT_GROUPS, H5P_DEFAULT) > 0
+                          ? H5Gopen2(file, KEPT_GROUPS, H5P_DEFAULT)
+                          : -1;
+    for (hsize_t i = 0; all >= 0 && H5Gget_info(all, &info) >= 0 && i < info.nlinks; i++) {
+        const size_t used = strlen(text);
+        if (H5Lget_name_by_idx(all, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name,
+                               H5P_DEFAULT) > 0)
+            snprintf(text + used, KEPT_NAMES - used, "%s%s", used > 0 ? ", " : "", name);
+    }
+    handles_close(1, &all);
+    if (text[0] == '\0')
+        snprintf(text, KEPT_NAMES, "no experiment");
+}
+
 typedef struct target {
     record_file *r;
     hid_t at;

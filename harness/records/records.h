@@ -129,8 +129,9 @@ typedef struct stored_results {
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* Reads an HDF5 file or a table, which are distinguished by their first bytes. FAULT: the file
- * cannot be used; the message gives the reason. */
+/* Reads the results of verify from an HDF5 file, or a table, which are distinguished by their first
+ * bytes. FAULT: the file cannot be used, or contains only other results; the message gives the
+ * reason. */
 status results_read(const char *path, stored_results *out, fault *f);
 /* Like results_read, for the results of an experiment: "verify", "bench", or "sweep" (without
  * series); NULL: the first of these experiments in the file. */
@@ -539,6 +540,9 @@ hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int c
  * If another experiment is added to such a file, its root becomes the group. */
 #define KEPT_SWEEP_MARK "beamwork_sweep"
 
+enum { KEPT_NAMES = 200 };
+/* Writes the names of the experiments whose results the file contains, or "no experiment". */
+void kept_names(hid_t file, char text[KEPT_NAMES]);
 /* Creates the group for the output of an experiment; name NULL: the root. The caller closes the
  * group with H5Gclose. */
 hid_t kept_group(record_file *r, const char *name);

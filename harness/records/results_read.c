@@ -84,14 +84,7 @@ status results_read_any(const char *path, const char *experiment, stored_results
 
 status results_read(const char *path, stored_results *out, fault *f)
 {
-    TRY(results_read_any(path, NULL, out, f));
-    if (!out->swept)
-        return STATUS_OK;
-    results_free(out);
-    return fault_set(f, STATUS_FAULT,
-                     "%.120s: the file contains a sweep, which only 'beamwork compare' can read; "
-                     "give a file written by 'beamwork verify -o FILE.h5'",
-                     path);
+    return results_read_any(path, "verify", out, f);
 }
 
 enum { NAME = 200 };
@@ -486,13 +479,15 @@ static status read_file(const char *path, const char *experiment, hid_t file, st
     for (size_t i = 0; i < sizeof of_cells / sizeof *of_cells && at < 0; i++)
         if (experiment == NULL || strcmp(experiment, of_cells[i]) == 0)
             at = open_group(file, of_cells[i]);
-    if (at < 0)
-        return experiment == NULL
-                   ? results_case_damaged(path, "", "cases", f)
-                   : fault_set(f, STATUS_FAULT,
-                               "%.120s contains no results of '%.40s' that can be compared; give "
-                               "--experiment verify, bench or sweep, whichever wrote the file",
-                               path, experiment);
+    if (at < 0) {
+        char kinds[KEPT_NAMES];
+        kept_names(file, kinds);
+        return fault_set(f, STATUS_FAULT,
+                         "%.120s contains results of %.120s, not of %.40s; give a file written by "
+                         "'beamwork %.40s -o FILE.h5'",
+                         path, kinds, experiment != NULL ? experiment : "verify, bench or sweep",
+                         experiment != NULL ? experiment : "verify");
+    }
     const status outcome = read_group(path, at, out, f);
     H5Gclose(at);
     return outcome;

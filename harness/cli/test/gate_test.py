@@ -206,6 +206,12 @@ class Gate(ProgramTest):
                 if former == old and outcome == "fail":
                     self.check_report(files, outcome)
                 self.check_python(name, RUN[1], f"{outcome == 'pass'} {outcome}", not_worse_than=str(former))
+        other = self.folder / "other.h5"
+        self.answered("bench", "elastica", "-f", "beamw", "-n", "2", "-o", other)
+        for words in (("--not-worse-than", "not of verify; give a file written by 'beamwork verify"),
+                      ("--imported", "not imported results; give a file written by 'beamwork import")):
+            self.refused(4 if words[0] == "--not-worse-than" else 2, "contains results of bench, " + words[1],
+                         "verify", *RUN, words[0], other)
         old.write_bytes(old.read_bytes()[:2000])
         self.refused(4, "old.h5", "verify", *RUN, "--not-worse-than", old)
         self.refused(2, "no results of this run", "verify", "-k", "roll_up/default", "-f", "beamw",

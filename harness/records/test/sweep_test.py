@@ -130,7 +130,7 @@ class Sweeps(ProgramTest):
         for pair in ((self.old, results), (results, self.old)):
             self.refused(2, "old.h5 contains a sweep, but", "compare", *pair)
         self.refused(2, "there is no short table", "compare", self.old, "-o", self.folder / "x.csv")
-        self.refused(4, "a sweep, which only", "verify", "-k", "elastica", "--not-worse-than", self.old)
+        self.refused(4, "contains results of sweep, not of verify", "verify", "-k", "elastica", "--not-worse-than", self.old)
         for name in ("axes", "quantities", "formulations", "meshes", "points", "reference", "value", "error", "cost", "status",
                      "not_modelled"):
             def drop(file, name=name):
