@@ -16,7 +16,7 @@ from reference.accepted import ACCEPTED_COLUMNS, read_accepted  # noqa: E402
 from reference.glossary import GLOSSARY_COLUMNS, read_glossary  # noqa: E402
 from reference.table import Refused, read_csv  # noqa: E402
 
-VERSION = 3  # version of the packed file, equal to TRUTHS_VERSION of harness/study/study.h
+VERSION = 4  # version of the packed file, equal to TRUTHS_VERSION of harness/study/study.h
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = "case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,convention,source".split(",")
 FINDING_COLUMNS = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof".split(",")
@@ -204,21 +204,25 @@ def read_extreme_findings(path):
     return rows
 
 
-# [bytes] larger columns are compressed; in smaller ones, decompression takes more time than it saves.
-COMPRESSED = 8192
+# [bytes] larger tables are compressed; in smaller ones, decompression takes more time than it saves.
+COMPRESSED = 16384
 
 
-def write_columns(group, rows, columns):
+def column_of(name, values):
     import numpy
-    for name in columns:
-        values = [row[name] for row in rows]
-        if values and not isinstance(values[0], str) or name in ("largest_error", "from", "to"):
-            kind = {"elements": "i4", "hash": "u8"}.get(name, "f8")
-            group.create_dataset(name, data=numpy.array(values, dtype=kind))
-        else:
-            encoded = [v.encode() for v in values]
-            data = numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}")
-            group.create_dataset(name, data=data, compression="gzip" if data.nbytes > COMPRESSED else None)
+    if values and not isinstance(values[0], str) or name in ("largest_error", "from", "to"):
+        return numpy.array(values, dtype={"elements": "i4", "hash": "u8"}.get(name, "f8"))
+    encoded = [v.encode() for v in values]
+    return numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}")
+
+
+def write_table(group, table, rows, names):
+    """Writes a data set of a compound type: one row is stored after the other, and one chunk contains all of them."""
+    import numpy
+    columns = [column_of(name, [row[name] for row in rows]) for name in names]
+    data = numpy.rec.fromarrays(columns, names=names).view(numpy.ndarray)
+    large = data.nbytes > COMPRESSED
+    group.create_dataset(table, data=data, compression="gzip" if large else None, chunks=data.shape if large else None)
 
 
 def seal(path):
@@ -246,14 +250,14 @@ def pack(folder, out):
             file.attrs["version"] = VERSION
             group = file.create_group("truths")
             for case, rows in sorted(truths.items()):
-                write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
-            write_columns(file.create_group("findings"), findings, FINDING_COLUMNS)
-            write_columns(file.create_group("glossary"), glossary, GLOSSARY_COLUMNS)
-            write_columns(file.create_group("accepted"), accepted, ACCEPTED_COLUMNS)
+                write_table(group, case, rows, COLUMNS[1:] + ["hash"])
+            write_table(file, "findings", findings, FINDING_COLUMNS)
+            write_table(file, "glossary", glossary, GLOSSARY_COLUMNS)
+            write_table(file, "accepted", accepted, ACCEPTED_COLUMNS)
             group = file.create_group("extremes")
             for case, rows in sorted(extremes.items()):
-                write_columns(group.create_group(case), rows, COLUMNS[1:] + ["hash"])
-            write_columns(file.create_group("extreme_findings"), extreme_findings, EXTREME_COLUMNS)
+                write_table(group, case, rows, COLUMNS[1:] + ["hash"])
+            write_table(file, "extreme_findings", extreme_findings, EXTREME_COLUMNS)
         seal(temporary)
         os.replace(temporary, out)
     finally:

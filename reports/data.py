@@ -245,13 +245,17 @@ def holds(parameters, at):
 def read_other_model(path, case, parameters, quantity):
     """Returns the value of another model (plate, solid) at a parameter point, or NaN."""
     with h5py.File(path) as file:
-        group = file["truths"].get(case)
+        table = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
-        rows = zip(*([text(v) for v in group[name][()]] for name in names)) if group else ()
+        rows = zip(*([text(v) for v in table[name]] for name in names)) if table else ()
         for i, (at, of, model, formulation) in enumerate(rows):
             if model == "other" and not formulation and of == quantity and holds(at, parameters):
-                return float(group["value"][i])
+                return float(table["value"][i])
     return math.nan
+
+
+def columns_of(table):
+    return {name: column(table[name]) for name in table.dtype.names}
 
 
 def read_rules(path):
@@ -259,7 +263,7 @@ def read_rules(path):
     reference values."""
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
-            columns = {name: column(values[()]) for name, values in file["findings"].items()}
+            columns = columns_of(file["findings"])
     except (OSError, KeyError) as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
     return [dict(zip(columns, row)) for row in zip(*columns.values())]
@@ -282,7 +286,7 @@ def read_glossary(path):
         with h5py.File(path, driver="core", backing_store=False) as file:
             if "glossary" not in file:
                 return []
-            columns = {name: column(values[()]) for name, values in file["glossary"].items()}
+            columns = columns_of(file["glossary"])
     except OSError as why:
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
     return [dict(zip(columns, row)) for row in zip(*columns.values())]
@@ -292,8 +296,8 @@ def read_truth_counts(path):
     try:
         with h5py.File(path, driver="core", backing_store=False) as file:
             counts = {}
-            for group in file["truths"].values():
-                for kind in group["kind"]:
+            for table in file["truths"].values():
+                for kind in table["kind"]:
                     counts[text(kind)] = counts.get(text(kind), 0) + 1
             return counts
     except (OSError, KeyError) as why:

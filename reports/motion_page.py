@@ -100,10 +100,9 @@ def truths_of(path, case, quantity, end):
     """Returns [Truth] of a quantity at the default parameters except `time`, which may have any value. `end` is the
     default of `time`."""
     with h5py.File(path, driver="core", backing_store=False) as file:
-        group = file["truths"].get(case)
+        table = file["truths"].get(case)
         names = ("parameters", "quantity", "model", "formulation")
-        rows = zip(*([text(v) for v in group[n][()]] for n in names), group["value"][()]) if (
-            group) else ()
+        rows = zip(*([text(v) for v in table[n]] for n in names), table["value"]) if table else ()
         found = {}
         for at, of, model, formulation, value in rows:
             said = dict(item.split("=", 1) for item in at.split(";") if item)

@@ -47,12 +47,12 @@ def solid(truths, parameters, quantity):
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
-        group = file["truths"][CASE]
+        table = file["truths"][CASE]
         columns = {
-            name: [text(v) for v in group[name][()]]
+            name: [text(v) for v in table[name]]
             for name in ("parameters", "quantity", "source", "model")
         }
-        value, at = group["value"][()], group["at"][()]
+        value, at = table["value"], table["at"]
     rows = [
         i for i, q in enumerate(columns["quantity"])
         if q == quantity and columns["model"][i] == "other" and

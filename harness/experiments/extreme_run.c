@@ -106,19 +106,17 @@ const experiment_type experiment_stress = {.name = "stress",
                                            .gather = extreme_gather,
                                            .print = extreme_table};
 
-static status read_rows(table_columns *r, extreme_sweep *out)
+static status read_rows(table_columns *r, hid_t file, extreme_sweep *out)
 {
     static const columns_field field[] = {
-        {"extreme", 1, offsetof(extreme_deviation, extreme)},
-        {"formulation", 1, offsetof(extreme_deviation, formulation)},
-        {"quantity", 1, offsetof(extreme_deviation, quantity)},
-        {"outcome", 1, offsetof(extreme_deviation, outcome)},
-        {"proof", 1, offsetof(extreme_deviation, proof)},
-        {"from", 0, offsetof(extreme_deviation, from)},
-        {"to", 0, offsetof(extreme_deviation, to)}};
-    r->rows = r->group >= 0 ? columns_length(r->group, "outcome") : -1;
-    if (r->rows < 0)
-        return columns_broken(r, "outcome");
+        {"extreme", COLUMN_TEXT, offsetof(extreme_deviation, extreme)},
+        {"formulation", COLUMN_TEXT, offsetof(extreme_deviation, formulation)},
+        {"quantity", COLUMN_TEXT, offsetof(extreme_deviation, quantity)},
+        {"outcome", COLUMN_TEXT, offsetof(extreme_deviation, outcome)},
+        {"proof", COLUMN_TEXT, offsetof(extreme_deviation, proof)},
+        {"from", COLUMN_REAL, offsetof(extreme_deviation, from)},
+        {"to", COLUMN_REAL, offsetof(extreme_deviation, to)}};
+    TRY(columns_open(r, file));
     out->deviation = calloc((size_t)r->rows + 1, sizeof *out->deviation);
     if (out->deviation == NULL)
         return fault_memory(r->f, "known deviations");
@@ -132,10 +130,8 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 {
     table_columns r = {.path = path, .name = "extreme_findings", .f = f};
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    r.group = file >= 0 ? H5Gopen2(file, r.name, H5P_DEFAULT) : -1;
-    const status outcome = read_rows(&r, out);
-    if (r.group >= 0)
-        H5Gclose(r.group);
+    const status outcome = read_rows(&r, file, out);
+    columns_close(&r);
     if (file >= 0)
         H5Fclose(file);
     return outcome;

@@ -202,23 +202,21 @@ static status check_rule(const table_columns *c, const rule *r)
         c->path, r->name, word);
 }
 
-static status read_all(table_columns *c, rule **out)
+static status read_all(table_columns *c, hid_t file, rule **out)
 {
     static const columns_field field[] = {
-        {"rule", 1, offsetof(rule, name)},
-        {"formulations", 1, offsetof(rule, formulations)},
-        {"cases", 1, offsetof(rule, cases)},
-        {"condition", 1, offsetof(rule, condition)},
-        {"quantities", 1, offsetof(rule, quantities)},
-        {"verdicts", 1, offsetof(rule, verdicts)},
-        {"predicted", 1, offsetof(rule, predicted)},
-        {"cause", 1, offsetof(rule, cause)},
-        {"proof", 1, offsetof(rule, proof)},
-        {"largest_error", 0, offsetof(rule, largest_error)},
+        {"rule", COLUMN_TEXT, offsetof(rule, name)},
+        {"formulations", COLUMN_TEXT, offsetof(rule, formulations)},
+        {"cases", COLUMN_TEXT, offsetof(rule, cases)},
+        {"condition", COLUMN_TEXT, offsetof(rule, condition)},
+        {"quantities", COLUMN_TEXT, offsetof(rule, quantities)},
+        {"verdicts", COLUMN_TEXT, offsetof(rule, verdicts)},
+        {"predicted", COLUMN_TEXT, offsetof(rule, predicted)},
+        {"cause", COLUMN_TEXT, offsetof(rule, cause)},
+        {"proof", COLUMN_TEXT, offsetof(rule, proof)},
+        {"largest_error", COLUMN_REAL, offsetof(rule, largest_error)},
     };
-    c->rows = c->group >= 0 ? columns_length(c->group, "rule") : -1;
-    if (c->rows < 0)
-        return columns_broken(c, "rule");
+    TRY(columns_open(c, file));
     rule *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
     if (all == NULL)
         return fault_memory(c->f, "known deviations");
@@ -232,11 +230,9 @@ static status read_all(table_columns *c, rule **out)
 status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f)
 {
     table_columns c = {.path = path, .name = "findings", .f = f};
-    c.group = H5Gopen2(file, "findings", H5P_DEFAULT);
     *out = NULL;
-    const status outcome = read_all(&c, out);
-    if (c.group >= 0)
-        H5Gclose(c.group);
+    const status outcome = read_all(&c, file, out);
+    columns_close(&c);
     *count = *out != NULL ? c.rows : 0;
     return outcome;
 }
@@ -260,91 +256,134 @@ status columns_broken(const table_columns *r, const char *column)
                      r->path, column, r->name);
 }
 
-/* Returns the number of rows of an open column; -1: the column is not one-dimensional. */
-static int length_of(hid_t set)
+/* Describes a member of the stored type. Returns 0 if the type of the member is not one of
+ * column_kind. */
+static int describe_member(hid_t row, unsigned i, columns_member *out)
+{
+    char *const name = H5Tget_member_name(row, i);
+    const hid_t type = H5Tget_member_type(row, i);
+    const H5T_class_t class = H5Tget_class(type);
+    out->offset = H5Tget_member_offset(row, i);
+    out->size = H5Tget_size(type);
+    out->kind = class == H5T_STRING  ? COLUMN_TEXT
+                : class == H5T_FLOAT ? COLUMN_REAL
+                : out->size == 4     ? COLUMN_INT
+                                     : COLUMN_HASH;
+    const int good = name != NULL && strlen(name) < sizeof out->name &&
+                     (class == H5T_STRING  ? H5Tis_variable_str(type) == 0
+                      : class == H5T_FLOAT ? H5Tequal(type, H5T_NATIVE_DOUBLE) > 0
+                                           : H5Tequal(type, H5T_NATIVE_INT) > 0 ||
+                                                 H5Tequal(type, H5T_NATIVE_UINT64) > 0);
+    snprintf(out->name, sizeof out->name, "%s", good ? name : "");
+    H5free_memory(name);
+    handles_close(1, &type);
+    return good;
+}
+
+static int describe(table_columns *t, hid_t set, hid_t row)
 {
     hsize_t size = 0;
-    const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
-    const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
-                     H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
+    const hid_t space = H5Dget_space(set);
+    int good = row >= 0 && H5Tget_class(row) == H5T_COMPOUND && space >= 0 &&
+               H5Sget_simple_extent_ndims(space) == 1 &&
+               H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
     handles_close(1, &space);
-    return good ? (int)size : -1;
+    t->rows = good ? (int)size : 0;
+    t->row_size = good ? H5Tget_size(row) : 0;
+    t->members = good ? H5Tget_nmembers(row) : 0;
+    good = good && t->members <= COLUMNS_MOST && t->row_size < 1000000;
+    for (int i = 0; i < t->members && good; i++)
+        good = describe_member(row, (unsigned)i, &t->member[i]);
+    return good;
 }
 
-int columns_length(hid_t group, const char *column)
+/* The stored type is read without conversion, because HDF5 clears a large buffer for each
+ * conversion. */
+static int read_set(table_columns *t, hid_t set)
 {
-    const hid_t set = H5Dopen2(group, column, H5P_DEFAULT);
-    const int length = length_of(set);
+    const hid_t row = set >= 0 ? H5Dget_type(set) : -1;
+    int good = set >= 0 && describe(t, set, row);
+    t->data = good ? calloc((size_t)t->rows + 1, t->row_size) : NULL;
+    good = t->data != NULL && H5Dread(set, row, H5S_ALL, H5S_ALL, H5P_DEFAULT, t->data) >= 0;
+    handles_close(1, &row);
+    return good;
+}
+
+status columns_open(table_columns *t, hid_t at)
+{
+    t->data = NULL;
+    t->rows = t->members = 0;
+    const hid_t set =
+        H5Lexists(at, t->name, H5P_DEFAULT) > 0 ? H5Dopen2(at, t->name, H5P_DEFAULT) : -1;
+    const int good = read_set(t, set);
     handles_close(1, &set);
-    return length;
+    if (good)
+        return STATUS_OK;
+    return fault_set(t->f, STATUS_FAULT,
+                     "%s: the table %s is missing or damaged; build the file again ('make all')",
+                     t->path, t->name);
 }
 
-status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out)
+void columns_close(table_columns *t)
 {
-    const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
-    const int good =
-        length_of(set) == r->rows && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0;
-    handles_close(1, &set);
-    return good ? STATUS_OK : columns_broken(r, column);
+    free(t->data);
+    t->data = NULL;
 }
 
-status columns_strings(const table_columns *r, const char *column, char **out)
+static const columns_member *member_of(const table_columns *t, const columns_field *field)
 {
-    const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
-    const hid_t stored = length_of(set) == r->rows ? H5Dget_type(set) : -1;
-    int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
-    const size_t size = good ? H5Tget_size(stored) : 1;
-    char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    /* The stored type is read without conversion, because HDF5 clears a large buffer for each
-     * conversion. */
-    good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
-    for (int i = 0; i < r->rows && good; i++)
-        good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;
-    free(all);
-    handles_close(2, (const hid_t[]){stored, set});
-    return good ? STATUS_OK : columns_broken(r, column);
+    for (int i = 0; i < t->members; i++)
+        if (t->member[i].kind == field->kind && strcmp(t->member[i].name, field->column) == 0)
+            return &t->member[i];
+    return NULL;
 }
 
-status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride)
+status columns_read(const table_columns *t, const columns_field *field, void *base, size_t stride)
 {
-    assert(r->rows >= 0);
-    const size_t size = field->is_text ? sizeof(char *) : sizeof(double);
-    char *all = calloc((size_t)r->rows + 1, size);
-    if (all == NULL)
-        return fault_memory(r->f, "column %s of %s", field->column, r->name);
-    const status outcome = field->is_text
-                               ? columns_strings(r, field->column, (char **)(void *)all)
-                               : columns_numbers(r, field->column, H5T_NATIVE_DOUBLE, all);
-    for (int i = 0; i < r->rows; i++)
-        memcpy((char *)base + (size_t)i * stride + field->offset, all + (size_t)i * size, size);
-    free(all);
-    return outcome;
+    const columns_member *const m = member_of(t, field);
+    if (m == NULL)
+        return columns_broken(t, field->column);
+    for (int i = 0; i < t->rows; i++) {
+        const char *const from = t->data + (size_t)i * t->row_size + m->offset;
+        char *const to = (char *)base + (size_t)i * stride + field->offset;
+        if (field->kind != COLUMN_TEXT) {
+            memcpy(to, from, m->size);
+            continue;
+        }
+        char *const text = strndup(from, m->size);
+        if (text == NULL)
+            return fault_memory(t->f, "column %s of %s", field->column, t->name);
+        memcpy(to, &text, sizeof text);
+    }
+    return STATUS_OK;
 }
 
-static status accept_all(table_columns *c)
+static void accept_all(char *const name[], int count, int are_read)
 {
-    c->rows = c->group >= 0 ? columns_length(c->group, "formulation") : -1;
-    if (c->rows < 0)
-        return columns_broken(c, "formulation");
-    char **name = calloc((size_t)c->rows + 1, sizeof *name);
-    if (name == NULL)
-        return fault_memory(c->f, "accepted formulations");
-    const status outcome = columns_strings(c, "formulation", name);
-    for (int i = 0; i < c->rows; i++) {
-        if (outcome == STATUS_OK)
+    for (int i = 0; i < count; i++) {
+        if (are_read)
             formulations_accept(name[i]);
         free(name[i]);
     }
+}
+
+static status read_accepted(table_columns *t, hid_t file)
+{
+    static const columns_field field = {"formulation", COLUMN_TEXT, 0};
+    TRY(columns_open(t, file));
+    char **name = calloc((size_t)t->rows + 1, sizeof *name);
+    if (name == NULL)
+        return fault_memory(t->f, "accepted formulations");
+    const status outcome = columns_read(t, &field, name, sizeof *name);
+    accept_all(name, t->rows, outcome == STATUS_OK);
     free(name);
     return outcome;
 }
 
 status accepted_read(const char *path, hid_t file, fault *f)
 {
-    table_columns c = {.path = path, .name = "accepted", .f = f};
-    c.group = H5Lexists(file, c.name, H5P_DEFAULT) > 0 ? H5Gopen2(file, c.name, H5P_DEFAULT) : -1;
-    const status outcome = accept_all(&c);
-    if (c.group >= 0)
-        H5Gclose(c.group);
+    table_columns t = {.path = path, .name = "accepted", .f = f};
+    const status outcome = read_accepted(&t, file);
+    columns_close(&t);
     return outcome;
 }

@@ -199,7 +199,7 @@ typedef struct rule_subject {
 /* Returns 1 if the list of formulations of the rule includes the formulation with this key. */
 int rules_apply_to(const rule *, const char *formulation);
 
-enum { TRUTHS_VERSION = 3 };
+enum { TRUTHS_VERSION = 4 };
 
 typedef struct truth {
     const case_type *type;
@@ -566,27 +566,42 @@ int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct task_locks task_locks;
 
-/* Reads a table that is stored as one HDF5 data set per column. The size and type of every column
- * are checked. */
+/* Reads a table that is stored as one HDF5 data set of a compound type. The size and type of every
+ * column are checked. */
+
+typedef enum column_kind { COLUMN_REAL, COLUMN_TEXT, COLUMN_INT, COLUMN_HASH } column_kind;
+
+typedef struct columns_member {
+    char name[24];
+    column_kind kind;
+    size_t offset, size; /* in bytes of a row */
+} columns_member;
+
+enum { COLUMNS_MOST = 24 };
 
 typedef struct table_columns {
     const char *path; /* path of the file, for messages */
-    hid_t group;
-    char name[64]; /* name of the group, for messages */
-    int rows;
+    char name[64];    /* name of the data set */
+    int rows, members;
+    columns_member member[COLUMNS_MOST];
+    size_t row_size;
+    char *data; /* [rows * row_size] */
     fault *f;
 } table_columns;
 
 typedef struct columns_field {
     const char *column;
-    int is_text; /* 1: char *, allocated with malloc; 0: double */
+    column_kind kind; /* double; char *, allocated with malloc; int; uint64_t */
     size_t offset;
 } columns_field;
 
+/* Reads the data set t->name of a file or group. FAULT: it is missing or damaged. The caller calls
+ * columns_close, even after a failure. */
+status columns_open(table_columns *t, hid_t at);
+void columns_close(table_columns *t);
+
 /* Returns FAULT, with the message that the column is missing or damaged. */
 status columns_broken(const table_columns *r, const char *column);
-/* Returns the number of rows of a column; -1: there is no such column. */
-int columns_length(hid_t group, const char *column);
 /* Reads a column into a member of an array of structs base[rows]. After a failure, the array
  * contains the strings that have been read. */
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);

@@ -98,9 +98,6 @@ void task_locks_free(task_locks *);
 /* Locks a problem for a task, unless it is locked. Returns the task that holds the lock. */
 int task_locks_acquire(task_locks *, const identity *, int task);
 
-status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
-status columns_strings(const table_columns *r, const char *column, char **out);
-
 typedef struct workload_task {
     int series, mesh;
     int again; /* 0: the cell; k > 0: repetition number k - 1, which solves an equivalent scene */

@@ -254,27 +254,30 @@ const char *truth_rows_wrong(const truth *row)
 typedef struct loose_columns {
     char **parameters;
     uint64_t *hash;
-    int *elements;
 } loose_columns;
 
 static status read_columns(const table_columns *r, loose_columns *loose, truth *row)
 {
-    static const columns_field field[] = {{"formulation", 1, offsetof(truth, formulation)},
-                                          {"theory", 1, offsetof(truth, theory)},
-                                          {"quantity", 1, offsetof(truth, quantity)},
-                                          {"unit", 1, offsetof(truth, unit)},
-                                          {"kind", 1, offsetof(truth, kind)},
-                                          {"model", 1, offsetof(truth, model)},
-                                          {"convention", 1, offsetof(truth, convention)},
-                                          {"source", 1, offsetof(truth, source)},
-                                          {"at", 0, offsetof(truth, at)},
-                                          {"value", 0, offsetof(truth, value)},
-                                          {"uncertainty", 0, offsetof(truth, uncertainty)}};
+    static const columns_field field[] = {{"formulation", COLUMN_TEXT,
+                                           offsetof(truth, formulation)},
+                                          {"theory", COLUMN_TEXT, offsetof(truth, theory)},
+                                          {"quantity", COLUMN_TEXT, offsetof(truth, quantity)},
+                                          {"unit", COLUMN_TEXT, offsetof(truth, unit)},
+                                          {"kind", COLUMN_TEXT, offsetof(truth, kind)},
+                                          {"model", COLUMN_TEXT, offsetof(truth, model)},
+                                          {"convention", COLUMN_TEXT, offsetof(truth, convention)},
+                                          {"source", COLUMN_TEXT, offsetof(truth, source)},
+                                          {"at", COLUMN_REAL, offsetof(truth, at)},
+                                          {"value", COLUMN_REAL, offsetof(truth, value)},
+                                          {"uncertainty", COLUMN_REAL,
+                                           offsetof(truth, uncertainty)},
+                                          {"elements", COLUMN_INT, offsetof(truth, elements)}},
+                               hash = {"hash", COLUMN_HASH, 0},
+                               parameters = {"parameters", COLUMN_TEXT, 0};
     for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
         TRY(columns_read(r, &field[k], row, sizeof *row));
-    TRY(columns_numbers(r, "elements", H5T_NATIVE_INT, loose->elements));
-    TRY(columns_numbers(r, "hash", H5T_NATIVE_UINT64, loose->hash));
-    return columns_strings(r, "parameters", loose->parameters);
+    TRY(columns_read(r, &hash, loose->hash, sizeof *loose->hash));
+    return columns_read(r, &parameters, loose->parameters, sizeof *loose->parameters);
 }
 
 static int is_of_same_point(const loose_columns *loose, int i)
@@ -290,7 +293,6 @@ static status fill_rows(const table_columns *r, const case_type *type, const loo
     before.known = 0;
     for (int i = 0; i < r->rows; i++) {
         row[i].type = type;
-        row[i].elements = loose->elements[i];
         row[i].on_curve = !isnan(row[i].at);
         if (is_of_same_point(loose, i)) {
             memcpy(row[i].parameter, row[i - 1].parameter, sizeof row[i].parameter);
@@ -308,7 +310,7 @@ static status fill_rows(const table_columns *r, const case_type *type, const loo
 static status read_loose(const table_columns *r, const case_type *type, loose_columns *loose,
                          truth *row)
 {
-    if (loose->parameters == NULL || loose->hash == NULL || loose->elements == NULL)
+    if (loose->parameters == NULL || loose->hash == NULL)
         return fault_memory(r->f, "reference values");
     TRY(read_columns(r, loose, row));
     return fill_rows(r, type, loose, row);
@@ -318,14 +320,12 @@ status truth_rows_read(const table_columns *r, const case_type *type, truth *row
 {
     assert(r->rows >= 0);
     loose_columns loose = {.parameters = calloc((size_t)r->rows + 1, sizeof *loose.parameters),
-                           .hash = calloc((size_t)r->rows + 1, sizeof *loose.hash),
-                           .elements = calloc((size_t)r->rows + 1, sizeof *loose.elements)};
+                           .hash = calloc((size_t)r->rows + 1, sizeof *loose.hash)};
     const status outcome = read_loose(r, type, &loose, row);
     if (loose.parameters != NULL)
         for (int i = 0; i < r->rows; i++)
             free(loose.parameters[i]);
     free(loose.parameters);
     free(loose.hash);
-    free(loose.elements);
     return outcome;
 }

@@ -32,11 +32,9 @@ truth *truths_add(truths *t, fault *f)
     return &t->row[t->rows++];
 }
 
-static status read_table(table_columns *r, const case_type *type, truths *out)
+static status read_table(table_columns *r, hid_t all, const case_type *type, truths *out)
 {
-    r->rows = r->group >= 0 ? columns_length(r->group, "value") : -1;
-    if (r->rows < 0)
-        return columns_broken(r, "value");
+    TRY(columns_open(r, all));
     TRY(truths_reserve(out, r->rows, r->f));
     for (int i = 0; i < r->rows; i++)
         truths_add(out, r->f);
@@ -49,10 +47,8 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     snprintf(r.name, sizeof r.name, "%s", type->name);
     if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
         return STATUS_OK;
-    r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
-    const status outcome = read_table(&r, type, out);
-    if (r.group >= 0)
-        H5Gclose(r.group);
+    const status outcome = read_table(&r, all, type, out);
+    columns_close(&r);
     return outcome;
 }
 
@@ -274,18 +270,16 @@ status scene_truths_add_all(const scene_file *file, truths *t, fault *f)
     return scene_file_truths_all(file, take, &to, f);
 }
 
-static status read_all(table_columns *c, glossary_entry **out)
+static status read_all(table_columns *c, hid_t file, glossary_entry **out)
 {
     static const columns_field field[] = {
-        {"term", 1, offsetof(glossary_entry, term)},
-        {"also", 1, offsetof(glossary_entry, also)},
-        {"group", 1, offsetof(glossary_entry, group)},
-        {"meaning", 1, offsetof(glossary_entry, meaning)},
-        {"see", 1, offsetof(glossary_entry, see)},
+        {"term", COLUMN_TEXT, offsetof(glossary_entry, term)},
+        {"also", COLUMN_TEXT, offsetof(glossary_entry, also)},
+        {"group", COLUMN_TEXT, offsetof(glossary_entry, group)},
+        {"meaning", COLUMN_TEXT, offsetof(glossary_entry, meaning)},
+        {"see", COLUMN_TEXT, offsetof(glossary_entry, see)},
     };
-    c->rows = c->group >= 0 ? columns_length(c->group, "term") : -1;
-    if (c->rows < 0)
-        return columns_broken(c, "term");
+    TRY(columns_open(c, file));
     glossary_entry *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
     if (all == NULL)
         return fault_memory(c->f, "the glossary");
@@ -298,10 +292,8 @@ static status glossary_read_open(const char *path, hid_t *file, glossary *out, f
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};
     TRY(truths_file_open(path, file, f));
-    c.group = H5Lexists(*file, c.name, H5P_DEFAULT) > 0 ? H5Gopen2(*file, c.name, H5P_DEFAULT) : -1;
-    const status outcome = read_all(&c, &out->entry);
-    if (c.group >= 0)
-        H5Gclose(c.group);
+    const status outcome = read_all(&c, *file, &out->entry);
+    columns_close(&c);
     out->entries = out->entry != NULL ? c.rows : 0;
     return outcome;
 }

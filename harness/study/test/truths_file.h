@@ -17,7 +17,7 @@
 typedef struct recipe {
     const char *schema, *case_group, *kind, *model, *theory, *convention, *formulation, *parameters,
         *left_out_column, *rule_cases, *condition, *predicted, *accepted;
-    int version, elements, short_column;
+    int version, elements, single_precision;
     double value, uncertainty, at;
     uint64_t hash_change;
 } recipe;
@@ -35,51 +35,79 @@ static const recipe right = {.schema = "beamwork-truths",
                              .uncertainty = 1e-9,
                              .at = NAN};
 
-static void put(hid_t at, const char *name, hid_t type, hsize_t rows, const void *value)
+/* A table of one row. */
+typedef struct table_made {
+    struct {
+        const char *name;
+        hid_t type;
+        size_t offset;
+    } column[16];
+    int columns;
+    size_t size;
+    char row[16 * 64];
+} table_made;
+
+static void put(table_made *t, const char *name, hid_t type, const void *value)
 {
-    const hid_t space = H5Screate_simple(1, &rows, NULL);
-    const hid_t set = H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value);
-    H5Dclose(set);
-    H5Sclose(space);
+    t->column[t->columns].name = name;
+    t->column[t->columns].type = H5Tcopy(type);
+    t->column[t->columns++].offset = t->size;
+    memcpy(t->row + t->size, value, H5Tget_size(type));
+    t->size += H5Tget_size(type);
 }
 
-static void put_text(hid_t at, const recipe *r, const char *name, const char *text)
+static void put_text(table_made *t, const recipe *r, const char *name, const char *text)
 {
     char field[64] = "";
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, sizeof field);
     snprintf(field, sizeof field, "%s", text);
     if (strcmp(name, r->left_out_column) != 0)
-        put(at, name, type, 1, field);
+        put(t, name, type, field);
     H5Tclose(type);
+}
+
+static void put_table(hid_t at, const char *name, table_made *t)
+{
+    const hsize_t rows = 1;
+    const hid_t type = t->size > 0 ? H5Tcreate(H5T_COMPOUND, t->size) : H5Tcopy(H5T_NATIVE_INT),
+                space = H5Screate_simple(1, &rows, NULL);
+    for (int i = 0; i < t->columns; i++) {
+        H5Tinsert(type, t->column[i].name, t->column[i].offset, t->column[i].type);
+        H5Tclose(t->column[i].type);
+    }
+    const hid_t set = H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, t->row);
+    handles_close(3, (const hid_t[]){set, space, type});
 }
 
 static void put_truth(hid_t file, const recipe *r, const case_type *type)
 {
-    double value[CASE_MAX_PARAMETERS] = {0}, pair[2] = {r->value, r->value};
+    double value[CASE_MAX_PARAMETERS] = {0};
     int any[CASE_MAX_PARAMETERS] = {0};
     parameters_parse(type, r->parameters, value, any, NULL);
     const uint64_t hash = parameters_hash(type, value, any) + r->hash_change;
     const hid_t all = H5Gcreate2(file, "truths", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t at = H5Gcreate2(all, r->case_group != NULL ? r->case_group : type->name,
-                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "parameters", r->parameters);
-    put_text(at, r, "formulation", r->formulation);
-    put_text(at, r, "quantity", "load");
-    put_text(at, r, "unit", "N");
-    put_text(at, r, "kind", r->kind);
-    put_text(at, r, "model", r->model);
-    put_text(at, r, "theory", r->theory);
-    put_text(at, r, "convention", r->convention);
-    put_text(at, r, "source", "test");
-    put(at, "value", H5T_NATIVE_DOUBLE, 1, pair);
-    const double uncertainty[2] = {r->uncertainty, r->uncertainty};
-    put(at, "uncertainty", H5T_NATIVE_DOUBLE, r->short_column ? 2 : 1, uncertainty);
-    put(at, "at", H5T_NATIVE_DOUBLE, 1, &r->at);
-    put(at, "elements", H5T_NATIVE_INT, 1, &r->elements);
-    put(at, "hash", H5T_NATIVE_UINT64, 1, &hash);
-    H5Gclose(at);
+    const float single = (float)r->uncertainty;
+    table_made t = {.columns = 0};
+    put_text(&t, r, "parameters", r->parameters);
+    put_text(&t, r, "formulation", r->formulation);
+    put_text(&t, r, "quantity", "load");
+    put_text(&t, r, "unit", "N");
+    put_text(&t, r, "kind", r->kind);
+    put_text(&t, r, "model", r->model);
+    put_text(&t, r, "theory", r->theory);
+    put_text(&t, r, "convention", r->convention);
+    put_text(&t, r, "source", "test");
+    put(&t, "value", H5T_NATIVE_DOUBLE, &r->value);
+    if (r->single_precision)
+        put(&t, "uncertainty", H5T_NATIVE_FLOAT, &single);
+    else
+        put(&t, "uncertainty", H5T_NATIVE_DOUBLE, &r->uncertainty);
+    put(&t, "at", H5T_NATIVE_DOUBLE, &r->at);
+    put(&t, "elements", H5T_NATIVE_INT, &r->elements);
+    put(&t, "hash", H5T_NATIVE_UINT64, &hash);
+    put_table(all, r->case_group != NULL ? r->case_group : type->name, &t);
     H5Gclose(all);
 }
 
@@ -91,25 +119,25 @@ static const char *or_else(const char *given, const char *usual)
 static void put_rule(hid_t file, const recipe *r, const case_type *type)
 {
     const double largest = 0.1;
-    const hid_t at = H5Gcreate2(file, "findings", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "rule", "made_up");
-    put_text(at, r, "formulations", "some* another:mass=lumped");
-    put_text(at, r, "cases", or_else(r->rule_cases, type->name));
-    put_text(at, r, "condition", or_else(r->condition, ""));
-    put_text(at, r, "quantities", "lo?d");
-    put_text(at, r, "verdicts", "low order|wrong limit");
-    put_text(at, r, "predicted", or_else(r->predicted, ""));
-    put_text(at, r, "cause", "test");
-    put_text(at, r, "proof", "test");
-    put(at, "largest_error", H5T_NATIVE_DOUBLE, 1, &largest);
-    H5Gclose(at);
+    table_made t = {.columns = 0};
+    put_text(&t, r, "rule", "made_up");
+    put_text(&t, r, "formulations", "some* another:mass=lumped");
+    put_text(&t, r, "cases", or_else(r->rule_cases, type->name));
+    put_text(&t, r, "condition", or_else(r->condition, ""));
+    put_text(&t, r, "quantities", "lo?d");
+    put_text(&t, r, "verdicts", "low order|wrong limit");
+    put_text(&t, r, "predicted", or_else(r->predicted, ""));
+    put_text(&t, r, "cause", "test");
+    put_text(&t, r, "proof", "test");
+    put(&t, "largest_error", H5T_NATIVE_DOUBLE, &largest);
+    put_table(file, "findings", &t);
 }
 
 static void put_accepted(hid_t file, const recipe *r)
 {
-    const hid_t at = H5Gcreate2(file, "accepted", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    put_text(at, r, "formulation", or_else(r->accepted, registry_formulations[0]->name));
-    H5Gclose(at);
+    table_made t = {.columns = 0};
+    put_text(&t, r, "formulation", or_else(r->accepted, registry_formulations[0]->name));
+    put_table(file, "accepted", &t);
 }
 
 static void truths_file_checksum(const char *path)

@@ -59,8 +59,8 @@ static void wrong_files(const char *path)
     r.left_out_column = "proof";
     truths_file_refused(path, "proof", r, "missing column of the findings");
     r = right;
-    r.short_column = 1;
-    truths_file_refused(path, "uncertainty", r, "columns of different length");
+    r.single_precision = 1;
+    truths_file_refused(path, registry_cases[0]->name, r, "a column in single precision");
     r = right;
     r.value = NAN;
     truths_file_refused(path, "value", r, "not a number");
