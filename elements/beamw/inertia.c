@@ -60,13 +60,22 @@ static void gradient_of(const double J[8 * N], const double f[8], double out[N])
     out[AQ] = f[7] * J[7 * N + AQ];
 }
 
+/* Returns the number of fields, from the first, on which the inertia depends. */
+static int fields_of(const lumped_mass *l)
+{
+    if (!l->turns)
+        return CHI_X + 1;
+    return l->warping > 0 ? BEAMW_FIELDS : PSI;
+}
+
 static void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_spread *d, int g,
                                     beamw_inertia_values *out)
 {
+    const int fields = fields_of(&d->lumped);
     out->x = d->at[g];
     out->mass = d->share * 2 * d->weight[g];
     out->field = d->field[g];
-    for (int k = 0; k < BEAMW_FIELDS; k++) {
+    for (int k = 0; k < fields; k++) {
         const double *field = d->field[g][k];
         out->value[k] = 0;
         for (int i = 0; i < 8; i++)
@@ -231,15 +240,17 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
  * inertia. */
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
-    double row[N];
+    double row[N], scaled[N];
+    if (c->out->M == NULL)
+        return;
     memcpy(row, at->gradient[CHI_X], sizeof row);
     for (int i = 0; i < 3; i++) {
         row[TP + i] += (1 - at->x) * c->vector[0][0][i];
         row[TQ + i] += at->x * c->vector[1][0][i];
     }
-    for (int i = 0; i < N && c->out->M != NULL; i++)
-        for (int j = 0; j < N; j++)
-            c->out->M[N * i + j] += mass * row[i] * row[j];
+    for (int i = 0; i < N; i++)
+        scaled[i] = mass * row[i];
+    REAL_CHOSEN(congruence_add_upper)(1, 1, scaled, row, c->out->M);
 }
 
 /* Adds size times a vector of the field to y and size times its gradient to T. */

@@ -110,3 +110,52 @@ void REAL_NAMED(congruence_add)(int m, int n, const double *J, const double *S, 
 {
     REAL_NAMED(congruence_add_between)(m, n, J, S, J, K);
 }
+
+typedef double tail __attribute__((vector_size(16)));
+enum { UPPER = UPPER_COLUMNS, WHOLE = UPPER / WIDTH, LEFT = UPPER % WIDTH };
+
+/* Adds row[rows] times U to the columns of A from the SIMD vector `block` on. */
+static inline __attribute__((always_inline)) void
+add_columns(int rows, double factor, const double *row, int block, const double *U, double *A)
+{
+    for (int b = block; b < WHOLE; b++) {
+        part u, sum = {0}, all;
+        for (int k = 0; k < rows; k++) {
+            memcpy(&u, U + k * UPPER + b * WIDTH, sizeof u);
+            sum = k == 0 ? row[k] * u : sum + row[k] * u;
+        }
+        memcpy(&all, A + b * WIDTH, sizeof all);
+        all += factor * sum;
+        memcpy(A + b * WIDTH, &all, sizeof all);
+    }
+    if (LEFT == 0)
+        return;
+    tail u, sum = {0}, all;
+    for (int k = 0; k < rows; k++) {
+        memcpy(&u, U + k * UPPER + WHOLE * WIDTH, sizeof u);
+        sum = k == 0 ? row[k] * u : sum + row[k] * u;
+    }
+    memcpy(&all, A + WHOLE * WIDTH, sizeof all);
+    all += factor * sum;
+    memcpy(A + WHOLE * WIDTH, &all, sizeof all);
+}
+
+static inline __attribute__((always_inline)) void
+add_upper(int rows, double factor, const double *T, const double *U, double *A)
+{
+    for (int i = 0; i < UPPER; i++) {
+        double row[3];
+        for (int k = 0; k < rows; k++)
+            row[k] = T[k * UPPER + i];
+        add_columns(rows, factor, row, i / WIDTH, U, A + i * UPPER);
+    }
+}
+
+void REAL_NAMED(congruence_add_upper)(int rows, double factor, const double *T, const double *U,
+                                      double *A)
+{
+    if (rows == 3)
+        add_upper(3, factor, T, U, A);
+    else
+        add_upper(1, factor, T, U, A);
+}

@@ -54,5 +54,12 @@ void congruence_add_between_plain(int m, int n, const double *A, const double *S
                                   double *K);
 void congruence_add_between_avx2(int m, int n, const double *A, const double *S, const double *J,
                                  double *K);
+enum { UPPER_COLUMNS = 14 };
+/* Adds factor T^T U to the upper half of A, with T and U of one or three rows of UPPER_COLUMNS, and
+ * changes A next to its diagonal. */
+void congruence_add_upper_plain(int rows, double factor, const double *T, const double *U,
+                                double *A);
+void congruence_add_upper_avx2(int rows, double factor, const double *T, const double *U,
+                               double *A);
 
 #endif

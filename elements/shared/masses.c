@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/real.h"
 #include "elements/math/scalar.h"
 #include "elements/section/section.h"
 
@@ -49,8 +50,8 @@ static inline __attribute__((always_inline)) void add_upper(int columns, double 
 static void add_product(int columns, double factor, const double *T, const double *U, int n,
                         double *A)
 {
-    if (columns == MOST && n == MOST)
-        add_upper(MOST, factor, T, U, MOST, A);
+    if (columns == UPPER_COLUMNS && n == UPPER_COLUMNS)
+        REAL_CHOSEN(congruence_add_upper)(3, factor, T, U, A);
     else if (columns == 3)
         add_upper(3, factor, T, U, n, A);
     else
