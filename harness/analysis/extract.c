@@ -12,7 +12,7 @@
 static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
                                       const analysis_outcome *, quantity_result *);
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
-                                   const analysis_outcome *, quantity_result *);
+                                   analysis_outcome *, quantity_result *);
 
 static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; use more elements, "
@@ -132,7 +132,7 @@ static int has_anything(const analysis_outcome *o)
 
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
-    const analysis_outcome *o = &c->outcomes[q->analysis];
+    analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
     if (q->what.kind == SCENE_ENVELOPE_OF)
@@ -261,19 +261,31 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
     quantity_no_value(r, side->status, why);
 }
 
-/* Sets *found to the index of the mode of the requested kind and number; -1: none. x[free +
- * driven]: work space. */
-static status find_mode(const analysis_context *c, const scene_mode *wanted,
-                        const outcome_side *side, double x[], int *found, fault *f)
+/* Identifies mode i unless it is already identified. x[free + driven]: work space. */
+static status identify(const analysis_context *c, int i, double x[], outcome_side *side, fault *f)
 {
     const size_t n = (size_t)model_sizes(c->model).free;
+    if (side->shape == NULL)
+        side->shape = calloc((size_t)side->count + 1, sizeof *side->shape);
+    if (side->shape == NULL)
+        return fault_memory(f, "modes");
+    for (; side->identified <= i; side->identified++) {
+        memcpy(x, side->mode + (size_t)side->identified * n, n * sizeof *x);
+        TRY(modes_identify(c->model, c->scene, x, &side->shape[side->identified], f));
+    }
+    return STATUS_OK;
+}
+
+/* Sets *found to the index of the mode of the requested kind and number; -1: none. x[free +
+ * driven]: work space. */
+static status find_mode(const analysis_context *c, const scene_mode *wanted, outcome_side *side,
+                        double x[], int *found, fault *f)
+{
     int order = 0;
     *found = -1;
     for (int i = 0; i < side->count; i++) {
-        mode_shape shape;
-        memcpy(x, side->mode + (size_t)i * n, n * sizeof *x);
-        TRY(modes_identify(c->model, c->scene, x, &shape, f));
-        if (modes_in_family(wanted, &shape) && order++ == wanted->order) {
+        TRY(identify(c, i, x, side, f));
+        if (modes_in_family(wanted, &side->shape[i]) && order++ == wanted->order) {
             *found = i;
             return STATUS_OK;
         }
@@ -282,10 +294,10 @@ static status find_mode(const analysis_context *c, const scene_mode *wanted,
 }
 
 static void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
-                                   const analysis_outcome *o, quantity_result *r)
+                                   analysis_outcome *o, quantity_result *r)
 {
     const model_size size = model_sizes(c->model);
-    const outcome_side *side = &outcome_spectrum_of(o)->positive;
+    outcome_side *side = &o->left.spectrum.positive;
     fault f = {"out of memory for a mode"};
     int found = -1;
     if (q->what.kind == SCENE_GROWTH) {

@@ -192,6 +192,9 @@ typedef struct outcome_side {
     /* [count] values (NAN: rounding errors leave no correct digit); [count x free] modes */
     double *value, *mode;
     double *error; /* [count] estimated relative errors due to iteration and rounding; NULL: none */
+    /* [count] kinds of the first `identified` modes, which quantities request; NULL: of none */
+    mode_shape *shape;
+    int identified;
     /* [count] growth rates of damped modes [1/s] (`error` then refers to growth + i value); NULL:
      * undamped */
     double *growth;

@@ -72,6 +72,7 @@ static void free_side(outcome_side *side)
     free(side->value);
     free(side->mode);
     free(side->error);
+    free(side->shape);
 }
 
 int outcome_has_path(const analysis_outcome *o)
