@@ -65,7 +65,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
     TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &pattern, f));
     for (int i = 0; i < 4; i++)
         TRY(sparse_alloc_like(pattern, each[i], f));
-    return factor_alloc(pattern, &a->factor, f);
+    return assemble_factor(c->run->patterns, pattern, &a->factor, f);
 }
 
 static status matrices_alloc(analysis_context *c, matrices *a, fault *f)

@@ -252,7 +252,6 @@ typedef struct imperfect {
 
 static void imperfect_free(imperfect *p)
 {
-    factor_free(p->work.left);
     run_state_end(&p->run);
     model_free(p->m);
     model_imperfect_free(p->shape);
@@ -366,7 +365,6 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
-    factor_free(work.left);
     imperfect_free(&other);
     run_state_end(&run);
     if (result->status != STATUS_OK && f != NULL)

@@ -256,6 +256,7 @@ static void pattern_free(mesh_pattern *p)
         free(p->layout[i].entry);
     free(p->layout);
     free(p->layout_of);
+    factor_free(p->analysed);
     memset(p, 0, sizeof *p);
 }
 
@@ -339,6 +340,22 @@ const mesh_pattern *assemble_of(const assemble_patterns *all, const sparse *a)
         if (all->pattern[i].made && all->pattern[i].matrix.row == a->row)
             return &all->pattern[i];
     return &all->pattern[FREE];
+}
+
+status assemble_factor(assemble_patterns *all, const sparse *a, matrix_factor **out, fault *f)
+{
+    mesh_pattern *p = &all->pattern[assemble_of(all, a) - all->pattern];
+    if (!a->symmetric)
+        return factor_alloc(a, out, f);
+    if (p->analysed == NULL) {
+        const status outcome = factor_alloc(a, &p->analysed, f);
+        if (outcome != STATUS_OK) {
+            factor_free(p->analysed);
+            p->analysed = NULL;
+            return outcome;
+        }
+    }
+    return factor_alloc_like(p->analysed, a, out, f);
 }
 
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out)

@@ -638,8 +638,12 @@ typedef struct mesh_pattern {
     mesh_layout *layout;
     int *layout_of;              /* [elements] */
     const mesh_element *element; /* of the model */
+    matrix_factor *analysed;     /* symbolic analysis of a symmetric pattern; NULL: not yet made */
 } mesh_pattern;
 
+/* Allocates a factor for a matrix with one of the patterns. Factors of a symmetric pattern share
+ * its symbolic analysis, which is made by the first call, and the patterns must outlive them. */
+status assemble_factor(assemble_patterns *, const sparse *, matrix_factor **out, fault *f);
 /* Returns the pattern of the matrix, including the positions of the entries of elements. */
 const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);

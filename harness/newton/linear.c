@@ -315,7 +315,7 @@ static status allocate(const analysis_context *c, linear_system *out, fault *f)
     const sparse *pattern;
     TRY(assemble_pattern_at_rest(c->model, c->run->patterns, 0, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &out->K, f));
-    return factor_alloc(pattern, &out->factor, f);
+    return assemble_factor(c->run->patterns, pattern, &out->factor, f);
 }
 
 status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)

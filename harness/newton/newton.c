@@ -8,8 +8,6 @@
 
 #include "elements/math/dense.h"
 
-static void context_leave_factor(analysis_context *, matrix_factor *);
-
 enum { MAX_ITERATIONS = 30 };
 
 static status allocate_tangent(newton_run *n, int condense, fault *f)
@@ -21,7 +19,7 @@ static status allocate_tangent(newton_run *n, int condense, fault *f)
         return condensation_as_factor(n->condensed, &n->factor, f);
     TRY(assemble_pattern_of_states(n->c->model, n->c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &n->K, f));
-    return factor_alloc(pattern, &n->factor, f);
+    return assemble_factor(n->c->run->patterns, pattern, &n->factor, f);
 }
 
 static status allocate(newton_run *n, int condense, fault *f)
@@ -74,11 +72,7 @@ void newton_free(newton_run *n)
     free(n->dense);
     free(n->unknown);
     free(n->pivot);
-    const int used = n->factor != NULL && factor_count(n->factor).factorisations > 0;
-    if (used && n->K.value != NULL && n->K.symmetric)
-        context_leave_factor(n->c, n->factor);
-    else
-        factor_free(n->factor);
+    factor_free(n->factor);
     sparse_free_values(&n->K);
     sparse_free_values(&n->whole);
     kinematics_state_free(n->state);
@@ -369,24 +363,6 @@ status context_symmetric(const matrix_factor *fa, const char *what, fault *f)
                            "about fixed axes and follower loads have no potential here; remove "
                            "these loads, or use a motion",
                            what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
-}
-
-static void context_leave_factor(analysis_context *c, matrix_factor *fa)
-{
-    int compliances = 0;
-    for (int i = 0; i < c->scene->analyses; i++)
-        compliances += c->scene->analysis[i].kind == SCENE_COMPLIANCE && context_runs(c, i);
-    if (compliances == 0 || c->work->left != NULL)
-        factor_free(fa);
-    else
-        c->work->left = fa;
-}
-
-matrix_factor *context_take_factor(analysis_context *c)
-{
-    matrix_factor *fa = c->work->left;
-    c->work->left = NULL;
-    return fa;
 }
 
 void context_count_condition(const analysis_context *c, matrix_factor *fa, const sparse *K)

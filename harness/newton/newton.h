@@ -726,8 +726,6 @@ void result_free(solve_result *);
 typedef struct context_work {
     double setup; /* [s] time for patterns and symbolic factorisation */
     int singular; /* 1: the matrix of the last factorisation was singular */
-    /* factor for the pattern of the free coordinates, stored by an earlier analysis; NULL: none */
-    matrix_factor *left;
 } context_work;
 
 typedef struct analysis_context {

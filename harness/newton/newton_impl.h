@@ -80,8 +80,6 @@ status context_condensation(const analysis_context *, int count, const int relea
                             condensation **out, fault *);
 /* Like context_factor, for a tangent with condensed members. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* Returns a factor that an earlier analysis stored for reuse; NULL: none. */
-matrix_factor *context_take_factor(analysis_context *);
 
 /* Finds the released coordinates of the node of the compliance analysis, and allocates the matrices
  * of the border. */

@@ -84,11 +84,9 @@ void tangent_free(node_tangent *t)
 static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
 {
     counters *n = &c->run->counters;
-    if (t->own == NULL && t->inside.symmetric)
-        t->own = context_take_factor(c);
     if (t->own == NULL) {
         const double start = clock_processor_seconds();
-        const status allocated = factor_alloc(&t->inside, &t->own, f);
+        const status allocated = assemble_factor(c->run->patterns, &t->inside, &t->own, f);
         c->work->setup += clock_processor_seconds() - start;
         TRY(allocated);
     }
