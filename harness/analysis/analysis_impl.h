@@ -9,36 +9,6 @@
 #include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
-/* Eigenpairs with the largest eigenvalues of a real unsymmetric operator, from the projection of
- * the operator on a growing orthonormal basis (Arnoldi). For such an operator, there is no inertia
- * count that could prove that no eigenvalue is missing. Therefore, after the requested eigenvalues
- * have converged, further start vectors are added until one of them gives no new eigenvalue of this
- * magnitude. */
-
-typedef struct arnoldi_result {
-    /* number of eigenvalues. It is smaller than `wanted` if the remaining eigenvalues are rounding
-     * errors, and larger by one if the last eigenvalue is the first of a conjugate pair. */
-    int count;
-    /* [count] eigenvalues, with the largest magnitude first and conjugates next to each other */
-    double complex *theta;
-    double complex *mode; /* [count x n] eigenvectors of length 1 */
-    double *residual;     /* [count] |T x - theta x|/|theta| */
-} arnoldi_result;
-
-typedef struct arnoldi_problem {
-    int n, wanted;
-    void (*apply)(void *context, const double x[], double y[]); /* y = T x */
-    void *context;
-    /* For few coordinates, T is formed as a matrix. Then values_only 1 leaves the modes and
-     * residuals of the result empty, and `left` receives the eigenvectors of the transpose of T,
-     * if it is not NULL. */
-    int values_only;
-    arnoldi_result *left;
-} arnoldi_problem;
-
-status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
-void arnoldi_free(arnoldi_result *);
-
 /* Collects the shapes of the undeformed structure, of at most `most` states of every path, of the
  * frames of motions, of linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);

@@ -271,19 +271,75 @@ static double error_of(const unsymmetric_solver *s, int i, const growth_estimate
     return fmin(least, cap) + part * s->right.residual[i] * fmin(1, least / DBL_EPSILON);
 }
 
+/* Returns the relative distance from right.theta[i] to the nearest other eigenvalue. */
+static double gap(const unsymmetric_solver *s, int i)
+{
+    const arnoldi_result *r = &s->right;
+    double nearest = 1 - r->next / cabs(r->theta[i]);
+    for (int j = 0; j < r->count; j++)
+        if (j != i)
+            nearest = fmin(nearest, cabs(r->theta[j] / r->theta[i] - 1));
+    return nearest;
+}
+
+/* Returns |K^-T M x/theta - x|/|x| in scaled coordinates, where x is a real mode. */
+static double left_change(unsymmetric_solver *s, int i)
+{
+    const double complex *v = s->right.mode + (size_t)i * (size_t)s->n;
+    const double theta = creal(s->right.theta[i]);
+    double change = 0, size = 0;
+    for (int k = 0; k < s->n; k++)
+        s->x[k] = creal(v[k]) / s->scale[k];
+    sparse_mul(s->p->M, s->x, s->y);
+    solve(s, 1, s->y);
+    for (int k = 0; k < s->n; k++) {
+        const double d = (s->y[k] / theta - s->x[k]) * s->scale[k];
+        change += d * d;
+        size += creal(v[k]) * creal(v[k]);
+    }
+    return sqrt(change / size);
+}
+
+/* Returns 1 if modes x can replace the left vectors w in the estimate of errors. Let x = w_i + sum
+ * c_j w_j. Since w_j^T M x_i = 0 for different eigenvalues, x^T M x equals w_i^T M x. The change
+ * K^-T M x/theta_i - x equals sum c_j (theta_j/theta_i - 1) w_j. The difference of x and w_i is
+ * therefore about this change divided by the smallest |theta_j/theta_i - 1|. */
+static int modes_serve_as_left(unsymmetric_solver *s)
+{
+    const double small = 0.1;
+    int serve = s->p->C == NULL;
+    for (int i = 0; serve && i < s->right.count; i++)
+        serve = cimag(s->right.theta[i]) == 0 && left_change(s, i) <= small * gap(s, i);
+    return serve;
+}
+
+static status take_modes_as_left(unsymmetric_solver *s, fault *f)
+{
+    const size_t size = (size_t)s->right.count * sizeof *s->left.theta;
+    s->left.theta = malloc(size + 1);
+    if (s->left.theta == NULL)
+        return fault_memory(f, "%d modes", s->right.count);
+    memcpy(s->left.theta, s->right.theta, size);
+    s->left.count = s->right.count;
+    return STATUS_OK;
+}
+
 /* Computes the left vectors w of K, which are K^-T times the left vectors of the operator. */
 static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
 {
     const size_t n = (size_t)s->n;
+    const int modes_serve = s->left.theta == NULL && modes_serve_as_left(s);
     if (s->left.theta == NULL)
-        TRY(pairs(s, 1, &s->left, f));
+        TRY(modes_serve ? take_modes_as_left(s, f) : pairs(s, 1, &s->left, f));
     e->x = calloc((3 + (size_t)s->left.count) * n + 1, sizeof *e->x);
     if (e->x == NULL)
         return fault_memory(f, "%d modes", s->left.count);
     e->w = e->x + n;
     e->y = e->w + n;
     e->left = e->y + n;
-    for (int j = 0; j < s->left.count; j++) {
+    for (size_t i = 0; modes_serve && i < n * (size_t)s->left.count; i++)
+        e->left[i] = s->right.mode[i] / s->scale[i % n];
+    for (int j = 0; !modes_serve && j < s->left.count; j++) {
         const size_t size = s->p->C != NULL ? n + (size_t)s->massive : n;
         const double complex *v = s->left.mode + (size_t)j * size;
         for (int half = 0; half < 2; half++) {

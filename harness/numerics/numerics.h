@@ -186,6 +186,36 @@ typedef struct eigen_result {
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
+/* Eigenpairs with the largest eigenvalues of a real unsymmetric operator, from the projection of
+ * the operator on a growing orthonormal basis (Arnoldi). For such an operator, there is no inertia
+ * count that could prove that no eigenvalue is missing. Therefore, after the requested eigenvalues
+ * have converged, further start vectors are added until one of them gives no new eigenvalue of this
+ * magnitude. */
+
+typedef struct arnoldi_result {
+    /* number of eigenvalues. It is smaller than `wanted` if the remaining eigenvalues are rounding
+     * errors, and larger by one if the last eigenvalue is the first of a conjugate pair. */
+    int count;
+    /* [count] eigenvalues, with the largest magnitude first and conjugates next to each other */
+    double _Complex *theta;
+    double _Complex *mode; /* [count x n] eigenvectors of length 1 */
+    double *residual;      /* [count] |T x - theta x|/|theta| */
+    double next; /* approximate magnitude of the largest other eigenvalue; 0: there is none */
+} arnoldi_result;
+
+typedef struct arnoldi_problem {
+    int n, wanted;
+    void (*apply)(void *context, const double x[], double y[]); /* y = T x */
+    void *context;
+    int values_only; /* 1: the result contains neither modes nor residuals */
+    /* For few coordinates, T is formed as a matrix. Then `left` receives the eigenvectors of the
+     * transpose of T, if it is not NULL. */
+    arnoldi_result *left;
+} arnoldi_problem;
+
+status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
+void arnoldi_free(arnoldi_result *);
+
 /* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
 

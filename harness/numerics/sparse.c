@@ -46,9 +46,13 @@ void sparse_mul(const sparse *a, const double x[], double y[])
     }
     for (int j = 0; j < a->n; j++)
         y[j] = 0;
-    for (int j = 0; j < a->n; j++)
-        for (int k = a->column[j]; k < a->column[j + 1]; k++)
-            y[a->row[k]] += a->value[k] * x[j];
+    const int *row = a->row;
+    const double *value = a->value;
+    for (int j = 0; j < a->n; j++) {
+        const double factor = x[j];
+        for (int k = a->column[j], end = a->column[j + 1]; k < end; k++)
+            y[row[k]] += value[k] * factor;
+    }
 }
 
 void sparse_mul_transposed(const sparse *a, const double x[], double y[])
@@ -58,9 +62,10 @@ void sparse_mul_transposed(const sparse *a, const double x[], double y[])
         return;
     }
     for (int j = 0; j < a->n; j++) {
-        y[j] = 0;
+        double sum = 0;
         for (int k = a->column[j]; k < a->column[j + 1]; k++)
-            y[j] += a->value[k] * x[a->row[k]];
+            sum += a->value[k] * x[a->row[k]];
+        y[j] = sum;
     }
 }
 

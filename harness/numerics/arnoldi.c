@@ -1,4 +1,7 @@
-#include "harness/analysis/analysis_impl.h"
+/* Eigenvalues of a projection on several Krylov spaces. Every space is a chain of orthonormal
+ * vectors: T times a vector is a combination of the vectors up to the next one. T times the last
+ * vector of a chain has a rest outside the basis; these rests determine the residuals. */
+#include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
 #include <lapacke.h>
@@ -6,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "elements/math/dense.h"
+#include "elements/math/real.h"
 
 enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 
@@ -23,17 +26,22 @@ static const double nothing = 1e-14;
 typedef struct solver {
     const arnoldi_problem *p;
     arnoldi_result *out;
-    /* room: capacity; count: number of vectors; chain 1: the last vector belongs to the current
-     * start vector */
+    /* room: capacity; count: number of vectors; chain 1: the current chain can be continued */
     int room, count, chain;
-    double *Q, *TQ, *H; /* [room x n] basis Q, [room x n] T Q, [room x room] Q^T T Q */
-    int whole;          /* 1: Q is the identity */
-    double *work, *A, *z, *left, *re, *im; /* left: NULL if left vectors are not requested */
+    int ends, last_of[MAX_STARTS]; /* number of ended chains; index of the last vector of a chain */
+    double *Q;                     /* [room x n] basis */
+    double *rest;  /* [MAX_STARTS x n] rests of the ended chains and of the current chain */
+    double length; /* of the rest of the current chain */
+    double *work;  /* [2 x n] */
+    double *H;     /* [room x room] Q^T T Q, column-major */
+    int whole;     /* 1: the basis is the identity, which Q does not contain */
+    double *part, *A, *z, *left, *re, *im; /* left: NULL if left vectors are not requested */
     int *order;
     unsigned long long seed;
     int found;
     double *last;
-    double complex *x; /* [n] */
+    double *residual;  /* [room] */
+    double complex *x; /* [room] */
 } solver;
 
 void arnoldi_free(arnoldi_result *r)
@@ -52,68 +60,78 @@ static void fill_start(solver *s, double x[])
     }
 }
 
-/* Subtracts the component in the span of the basis from x. Returns the relative length of the
- * remainder. */
-static double orthogonalise(const solver *s, double x[])
+static double norm(int n, const double x[])
 {
-    const int n = s->p->n;
-    const double before = sqrt(dense_dot(n, x, x));
-    for (int twice = 0; twice < 2; twice++)
-        for (int k = 0; k < s->count; k++) {
-            const double *q = s->Q + (size_t)k * (size_t)n, part = dense_dot(n, q, x);
-            for (int i = 0; i < n; i++)
-                x[i] -= part * q[i];
-        }
-    return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
+    double square;
+    REAL_CHOSEN(basis_measure)(n, 1, x, x, &square);
+    return sqrt(square);
 }
 
-static void take(solver *s, double x[])
+/* Subtracts the component in the span of the basis from x, and stores its coefficients in h[room].
+ * A further pass is needed only if the last one has cancelled digits. Returns the relative length
+ * of the remainder. */
+static double orthogonalise(solver *s, double x[], double h[])
 {
-    const int n = s->p->n, k = s->count++;
-    double *q = s->Q + (size_t)k * (size_t)n, *Tq = s->TQ + (size_t)k * (size_t)n;
-    const double length = sqrt(dense_dot(n, x, x));
-    for (int i = 0; i < n; i++)
-        q[i] = x[i] / length;
-    s->p->apply(s->p->context, q, Tq);
-    for (int i = 0; i <= k; i++) {
-        s->H[i * s->room + k] = dense_dot(n, s->Q + (size_t)i * (size_t)n, Tq);
-        s->H[k * s->room + i] = dense_dot(n, q, s->TQ + (size_t)i * (size_t)n);
+    const int n = s->p->n;
+    const double first = norm(n, x), cancelled = 0.5;
+    double before = first;
+    memset(h, 0, (size_t)s->room * sizeof *h);
+    for (;;) {
+        REAL_CHOSEN(basis_measure)(n, s->count, s->Q, x, s->part);
+        REAL_CHOSEN(basis_subtract)(n, s->count, s->Q, s->part, x);
+        for (int k = 0; k < s->count; k++)
+            h[k] += s->part[k];
+        s->length = norm(n, x);
+        if (!(s->length <= cancelled * before && s->length > nothing * first))
+            return first > 0 ? s->length / first : 0;
+        before = s->length;
     }
+}
+
+/* Returns the rest of an ended chain or, for end = s->ends, of the current chain. */
+static double *rest_of(const solver *s, int end)
+{
+    return s->rest + (size_t)end * (size_t)s->p->n;
 }
 
 /* Adds a vector of the current chain, or a new start vector if the chain has ended. */
 static int grow(solver *s)
 {
-    const int n = s->p->n;
-    if (s->count == s->room)
+    const int n = s->p->n, k = s->count;
+    const size_t room = (size_t)s->room;
+    double *q = s->Q + (size_t)k * (size_t)n, *rest = rest_of(s, s->ends);
+    if (k == s->room)
         return 0;
     if (s->chain) {
-        memcpy(s->work, s->TQ + (size_t)(s->count - 1) * (size_t)n, (size_t)n * sizeof *s->work);
-        s->chain = orthogonalise(s, s->work) > nothing;
-    }
-    if (!s->chain) {
-        fill_start(s, s->work);
-        if (!(orthogonalise(s, s->work) > nothing))
+        memcpy(q, rest, (size_t)n * sizeof *q);
+        s->H[(size_t)(k - 1) * room + (size_t)k] = s->length;
+    } else {
+        fill_start(s, q);
+        if (!(orthogonalise(s, q, s->H + (size_t)k * room) > nothing))
             return 0;
     }
-    s->chain = 1;
-    orthogonalise(s, s->work);
-    take(s, s->work);
+    for (int i = 0; i < n; i++)
+        q[i] /= s->length;
+    for (int e = 0; e < s->ends; e++) {
+        double *part = s->H + (size_t)s->last_of[e] * room + (size_t)k;
+        REAL_CHOSEN(basis_measure)(n, 1, q, rest_of(s, e), part);
+        REAL_CHOSEN(basis_subtract)(n, 1, q, part, rest_of(s, e));
+    }
+    s->last_of[s->ends] = s->count++;
+    s->p->apply(s->p->context, q, rest);
+    s->chain = orthogonalise(s, rest, s->H + (size_t)k * room) > nothing;
     return 1;
 }
 
-/* Makes Q the identity. */
+/* Makes the basis the identity. */
 static void span(solver *s)
 {
     const int n = s->p->n;
     s->whole = 1;
-    memset(s->Q, 0, (size_t)n * (size_t)n * sizeof *s->Q);
     for (int k = 0; k < n; k++) {
-        double *q = s->Q + (size_t)k * (size_t)n, *Tq = s->TQ + (size_t)k * (size_t)n;
-        q[k] = 1;
-        s->p->apply(s->p->context, q, Tq);
-        for (int i = 0; i < n; i++)
-            s->H[i * s->room + k] = Tq[i];
+        memset(s->rest, 0, (size_t)n * sizeof *s->rest);
+        s->rest[k] = 1;
+        s->p->apply(s->p->context, s->rest, s->H + (size_t)k * (size_t)s->room);
     }
     s->count = n;
 }
@@ -135,20 +153,16 @@ static void sort(solver *s)
     }
 }
 
-static int has_modes(const solver *s)
-{
-    return !(s->p->values_only && s->whole);
-}
-
-static status ritz(solver *s, fault *f)
+static status find_pairs(solver *s, fault *f)
 {
     const int k = s->count;
     for (int j = 0; j < k; j++)
-        for (int i = 0; i < k; i++)
-            s->A[j * k + i] = s->H[i * s->room + j];
+        memcpy(s->A + (size_t)j * (size_t)k, s->H + (size_t)j * (size_t)s->room,
+               (size_t)k * sizeof *s->A);
     numerics_work_add_dense(k);
     if (LAPACKE_dgeev(LAPACK_COL_MAJOR, s->left != NULL && s->whole ? 'V' : 'N',
-                      has_modes(s) ? 'V' : 'N', k, s->A, k, s->re, s->im, s->left, k, s->z, k) != 0)
+                      s->p->values_only && s->whole ? 'N' : 'V', k, s->A, k, s->re, s->im, s->left,
+                      k, s->z, k) != 0)
         return fault_set(
             f, STATUS_NOT_CONVERGED,
             "an eigenvalue problem of %d unknowns was not solved; use another number of elements",
@@ -175,37 +189,54 @@ static double complex component(const solver *s, const double z[], int i, int j)
     return re[j] + I * (second ? -part : part);
 }
 
-/* Stores the eigenvector of eigenvalue i in x, and returns its residual relative to the
- * eigenvalue. */
-static double vector_of(const solver *s, int i, double complex x[])
+/* Stores the inner products of the rests of all chains. */
+static void measure_rests(const solver *s, int chains, double product[])
 {
-    const int k = s->count, n = s->p->n, at = s->order[i];
+    for (int e = 0; e < chains; e++)
+        REAL_CHOSEN(basis_measure)(s->p->n, chains, s->rest, rest_of(s, e), product + e * chains);
+}
+
+/* Returns |T x - theta x|/|theta| for eigenvector x = Q z of length 1: (H - theta) z within the
+ * basis and, outside, the sum of the rests times the components of z. */
+static double residual_of(const solver *s, int i, int chains, const double product[])
+{
+    const int k = s->count, at = s->order[i];
     const double complex theta = s->re[at] + I * s->im[at];
-    double residual = 0, length = 0;
-    for (int row = 0; row < n; row++) {
-        double complex value = s->whole ? component(s, s->z, i, row) : 0, image = 0;
-        for (int j = 0; j < k; j++) {
-            const double complex c = component(s, s->z, i, j);
-            if (!s->whole)
-                value += c * s->Q[(size_t)j * (size_t)n + (size_t)row];
-            image += c * s->TQ[(size_t)j * (size_t)n + (size_t)row];
-        }
-        x[row] = value;
-        image -= theta * value;
-        length += creal(value) * creal(value) + cimag(value) * cimag(value);
-        residual += creal(image) * creal(image) + cimag(image) * cimag(image);
+    double sum = 0;
+    for (int row = 0; row < k; row++)
+        s->x[row] = -theta * component(s, s->z, i, row);
+    for (int j = 0; j < k; j++) {
+        const double complex c = component(s, s->z, i, j);
+        for (int row = 0; row < k; row++)
+            s->x[row] += c * s->H[(size_t)j * (size_t)s->room + (size_t)row];
     }
-    return sqrt(residual / length) / cabs(theta);
+    for (int row = 0; row < k; row++)
+        sum += creal(s->x[row] * conj(s->x[row]));
+    for (int e = 0; e < chains; e++)
+        for (int f = 0; f < chains; f++)
+            sum += creal(component(s, s->z, i, s->last_of[e]) *
+                         conj(component(s, s->z, i, s->last_of[f]))) *
+                   product[e * chains + f];
+    return sqrt(fmax(sum, 0)) / cabs(theta);
+}
+
+static void find_residuals(const solver *s)
+{
+    double product[MAX_STARTS * MAX_STARTS];
+    const int chains = s->ends + s->chain;
+    measure_rests(s, chains, product);
+    for (int i = 0; i < s->found; i++)
+        s->residual[i] = residual_of(s, i, chains, product);
 }
 
 static int converged(solver *s, double *worst)
 {
     int good = 1;
+    find_residuals(s);
     *worst = 0;
     for (int i = 0; i < s->found; i++) {
-        const double residual = vector_of(s, i, s->x);
-        *worst = fmax(*worst, residual);
-        good &= residual <= good_residual + rounding_residual * size_of(s, 0) / size_of(s, i);
+        *worst = fmax(*worst, s->residual[i]);
+        good &= s->residual[i] <= good_residual + rounding_residual * size_of(s, 0) / size_of(s, i);
     }
     return good;
 }
@@ -228,7 +259,7 @@ static status iterate(solver *s, int vectors, fault *f)
         int grown = 0;
         while (grown < vectors && grow(s))
             grown++;
-        TRY(ritz(s, f));
+        TRY(find_pairs(s, f));
         if (converged(s, &worst) || grown == 0 || (worst > best / 2 && worst < stalled_residual))
             return worst <= acceptable_residual || s->count == s->p->n
                        ? STATUS_OK
@@ -250,6 +281,7 @@ static status allocate_results(const solver *s, int modes, arnoldi_result *r, fa
     if (r->theta == NULL || (modes && r->mode == NULL) || r->residual == NULL)
         return fault_memory(f, "%d modes", s->found);
     r->count = s->found;
+    r->next = s->found < s->count ? size_of(s, s->found) : 0;
     for (int i = 0; i < s->found; i++)
         r->theta[i] = s->re[s->order[i]] + I * s->im[s->order[i]];
     return STATUS_OK;
@@ -267,24 +299,53 @@ static status store_left(const solver *s, fault *f)
     return STATUS_OK;
 }
 
+/* Stores the eigenvector of eigenvalue i in x[n], with the work space re[n], im[n]. */
+static void vector_of(const solver *s, int i, double re[], double im[], double complex x[])
+{
+    const int n = s->p->n, k = s->count;
+    double *parts[] = {re, im};
+    for (int imaginary = 0; imaginary < 2; imaginary++) {
+        for (int j = 0; j < k; j++) {
+            const double complex c = component(s, s->z, i, j);
+            s->part[j] = imaginary ? -cimag(c) : -creal(c);
+        }
+        memset(parts[imaginary], 0, (size_t)n * sizeof *re);
+        REAL_CHOSEN(basis_subtract)(n, k, s->Q, s->part, parts[imaginary]);
+    }
+    for (int row = 0; row < n; row++)
+        x[row] = re[row] + I * im[row];
+}
+
 static status store_results(solver *s, fault *f)
 {
     arnoldi_result *r = s->out;
-    TRY(allocate_results(s, has_modes(s), r, f));
-    for (int i = 0; has_modes(s) && i < s->found; i++)
-        r->residual[i] = vector_of(s, i, r->mode + (size_t)i * (size_t)s->p->n);
+    const size_t n = (size_t)s->p->n;
+    TRY(allocate_results(s, !s->p->values_only, r, f));
+    if (s->p->values_only)
+        return STATUS_OK;
+    if (s->whole)
+        find_residuals(s);
+    memcpy(r->residual, s->residual, (size_t)s->found * sizeof *r->residual);
+    for (int i = 0; i < s->found; i++) {
+        double complex *x = r->mode + (size_t)i * n;
+        for (size_t row = 0; s->whole && row < n; row++)
+            x[row] = component(s, s->z, i, (int)row);
+        if (!s->whole)
+            vector_of(s, i, s->work, s->work + n, x);
+    }
     return s->left != NULL && s->whole ? store_left(s, f) : STATUS_OK;
 }
 
 static status find(solver *s, fault *f)
 {
-    int vectors = FIRST + 2 * s->p->wanted;
-    if (s->p->n <= vectors) {
+    int vectors = FIRST + s->p->wanted;
+    if (s->p->n <= vectors + s->p->wanted) {
         span(s);
-        TRY(ritz(s, f));
+        TRY(find_pairs(s, f));
         return store_results(s, f);
     }
     for (int start = 0; start < MAX_STARTS; start++) {
+        s->ends += s->chain;
         s->chain = 0;
         TRY(iterate(s, vectors, f));
         const int news = changed(s);
@@ -292,7 +353,7 @@ static status find(solver *s, fault *f)
             return store_results(s, f);
         if (s->count == s->p->n)
             return store_results(s, f);
-        vectors = MORE + s->p->wanted;
+        vectors = MORE + s->p->wanted / 2;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "modes may be missing, because start vector %d still yields new eigenvalues; "
@@ -303,20 +364,22 @@ static status find(solver *s, fault *f)
 static status allocate(solver *s, fault *f)
 {
     const size_t n = (size_t)s->p->n, room = (size_t)s->room;
-    s->Q = malloc((2 * room + 1) * n * sizeof *s->Q);
-    s->H = calloc(4 * room * room + 2 * room + (size_t)s->p->wanted + 1, sizeof *s->H);
+    s->Q = malloc((room + MAX_STARTS + 2) * n * sizeof *s->Q);
+    s->H = malloc((4 * room * room + 4 * room + (size_t)s->p->wanted + 1) * sizeof *s->H);
     s->order = calloc(room + 1, sizeof *s->order);
-    s->x = calloc(n + 1, sizeof *s->x);
+    s->x = calloc(room + 1, sizeof *s->x);
     if (s->Q == NULL || s->H == NULL || s->order == NULL || s->x == NULL)
         return fault_memory(f, "%d vectors", s->room);
-    s->TQ = s->Q + room * n;
-    s->work = s->TQ + room * n;
+    s->rest = s->Q + room * n;
+    s->work = s->rest + MAX_STARTS * n;
     s->A = s->H + room * room;
     s->z = s->A + room * room;
     s->left = s->p->left != NULL ? s->z + room * room : NULL;
     s->re = s->z + 2 * room * room;
     s->im = s->re + room;
-    s->last = s->im + room;
+    s->part = s->im + room;
+    s->residual = s->part + room;
+    s->last = s->residual + room;
     return STATUS_OK;
 }
 
