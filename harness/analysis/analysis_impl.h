@@ -61,6 +61,7 @@ typedef struct unsymmetric_problem {
     int wanted;              /* number of requested modes, which have the smallest |s| */
     int estimate;            /* 1: estimates the errors, which doubles the work */
     int values_only;         /* 1: the modes are not requested */
+    int rough;               /* 1: only the stability is requested; see arnoldi_problem */
     int decaying;    /* 1: if C is given, modes that decay without oscillation are included */
     const sparse *B; /* mass matrix of the motions inside elements, if C is given; NULL: none */
     /* coefficients of the proportional damping in C: mass [1/s], stiffness [s] */
@@ -110,8 +111,14 @@ typedef struct flutter_system {
 
 status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
-/* What is computed of the motions: frequencies and growth rates, modes, errors. */
-typedef enum flutter_detail { FLUTTER_VALUES, FLUTTER_MODES, FLUTTER_ERRORS } flutter_detail;
+/* What is computed of the motions: frequencies and growth rates, either with six digits, which
+ * decide the stability, and their errors, or accurately with modes and errors. */
+typedef enum flutter_detail {
+    FLUTTER_VALUES,
+    FLUTTER_VALUE_ERRORS,
+    FLUTTER_MODES,
+    FLUTTER_ERRORS
+} flutter_detail;
 
 /* Computes the `wanted` modes with the smallest |s| about the state. */
 status flutter_motions(const newton_run *, flutter_system *, int wanted, flutter_detail,

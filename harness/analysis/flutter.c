@@ -38,8 +38,10 @@ status flutter_motions(const newton_run *n, flutter_system *s, int wanted, flutt
                                    .C = s->damped ? &s->C : NULL,
                                    .K_factor = n->factor,
                                    .wanted = wanted,
-                                   .estimate = detail == FLUTTER_ERRORS,
-                                   .values_only = detail == FLUTTER_VALUES};
+                                   .estimate =
+                                       detail == FLUTTER_VALUE_ERRORS || detail == FLUTTER_ERRORS,
+                                   .values_only = detail < FLUTTER_MODES,
+                                   .rough = detail < FLUTTER_MODES};
     if (!s->massless)
         TRY(rotating_frame_inertia(&n->c->eq, n->state, 0, &s->M, NULL, f));
     if (s->damped)
@@ -187,8 +189,9 @@ static status flutter_check_factored(flutter_check *j, int inside, step_record *
         return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
     if (inside)
         TRY(ask_motions(j, FLUTTER_VALUES, record, f));
-    return inside && record->judged == STEP_STABLE ? STATUS_OK
-                                                   : ask_motions(j, FLUTTER_ERRORS, record, f);
+    return inside && record->judged == STEP_STABLE
+               ? STATUS_OK
+               : ask_motions(j, FLUTTER_VALUE_ERRORS, record, f);
 }
 
 static status flutter_check_here(flutter_check *j, step_record *record, fault *f)

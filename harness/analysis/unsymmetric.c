@@ -20,6 +20,7 @@ typedef struct unsymmetric_solver {
     double *scale;  /* [n] */
     double *x, *y;  /* [n] workspace */
     double second;  /* [s] */
+    sparse M;       /* entries of the mass matrix that are not zero */
     arnoldi_result right, left;
 } unsymmetric_solver;
 
@@ -45,7 +46,7 @@ static void apply_undamped(void *context, const double in[], double out[])
     const unsymmetric_solver *s = context;
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] / s->scale[i];
-    sparse_mul(s->p->M, s->x, s->y);
+    sparse_mul(&s->M, s->x, s->y);
     solve(s, 0, s->y);
     for (int i = 0; i < s->n; i++)
         out[i] = s->y[i] * s->scale[i];
@@ -58,7 +59,7 @@ static void apply_undamped_transposed(void *context, const double in[], double o
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] * s->scale[i];
     solve(s, 1, s->x);
-    sparse_mul(s->p->M, s->x, s->y);
+    sparse_mul(&s->M, s->x, s->y);
     for (int i = 0; i < s->n; i++)
         out[i] = s->y[i] / s->scale[i];
 }
@@ -73,7 +74,7 @@ static void apply_damped(void *context, const double in[], double out[])
     memset(s->x, 0, (size_t)s->n * sizeof *s->x);
     for (int k = 0; k < s->massive; k++)
         s->x[s->of[k]] = in[s->n + k] / s->scale[s->of[k]] / s->second;
-    sparse_mul(s->p->M, s->x, out);
+    sparse_mul(&s->M, s->x, out);
     for (int i = 0; i < s->n; i++)
         s->y[i] = -s->y[i] - out[i];
     solve(s, 0, s->y);
@@ -92,7 +93,7 @@ static void apply_damped_transposed(void *context, const double in[], double out
     sparse_mul_transposed(s->p->C, s->x, s->y);
     for (int i = 0; i < s->n; i++)
         out[i] = -s->y[i] / s->scale[i];
-    sparse_mul(s->p->M, s->x, s->y);
+    sparse_mul(&s->M, s->x, s->y);
     for (int k = 0; k < s->massive; k++) {
         out[s->of[k]] += in[s->n + k] * s->second;
         out[s->n + k] = -s->y[s->of[k]] / s->scale[s->of[k]] / s->second;
@@ -119,6 +120,28 @@ static double scale_of(const unsymmetric_solver *s, int j)
             largest = fmax(largest, fabs(K->value[k]) / sqrt(own));
     }
     return largest;
+}
+
+/* The pattern of M is that of K, of which M fills about half. */
+static status take_mass(unsymmetric_solver *s, fault *f)
+{
+    const sparse *M = s->p->M;
+    const size_t entries = (size_t)M->column[M->n];
+    int *column = calloc((size_t)M->n + 1, sizeof *column),
+        *row = malloc((entries + 1) * sizeof *row), count = 0;
+    double *value = malloc((entries + 1) * sizeof *value);
+    s->M = (sparse){M->n, M->symmetric, column, row, value, 0};
+    if (column == NULL || row == NULL || value == NULL)
+        return fault_memory(f, "a mass matrix of %d coordinates", M->n);
+    for (int j = 0; j < M->n; j++) {
+        for (int k = M->column[j]; k < M->column[j + 1]; k++)
+            if (M->value[k] != 0) {
+                row[count] = M->row[k];
+                value[count++] = M->value[k];
+            }
+        column[j + 1] = count;
+    }
+    return STATUS_OK;
 }
 
 static void measure(unsymmetric_solver *s)
@@ -185,6 +208,7 @@ static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, 
                          .wanted = wanted,
                          .context = s,
                          .values_only = s->p->values_only && !s->p->estimate,
+                         .rough = s->p->rough,
                          .left = s->p->estimate && !transposed ? &s->left : NULL};
     if (damped)
         a.apply = transposed ? apply_damped_transposed : apply_damped;
@@ -201,6 +225,8 @@ static void multiply(const sparse *A, int absolute, const double complex x[], do
     for (int j = 0; j < A->n; j++)
         for (int k = A->column[j]; k < A->column[j + 1]; k++) {
             const double a = absolute ? fabs(A->value[k]) : A->value[k];
+            if (a == 0)
+                continue;
             y[A->row[k]] += a * x[j];
             if (A->symmetric && A->row[k] != j)
                 y[j] += a * x[A->row[k]];
@@ -290,7 +316,7 @@ static double left_change(unsymmetric_solver *s, int i)
     double change = 0, size = 0;
     for (int k = 0; k < s->n; k++)
         s->x[k] = creal(v[k]) / s->scale[k];
-    sparse_mul(s->p->M, s->x, s->y);
+    sparse_mul(&s->M, s->x, s->y);
     solve(s, 1, s->y);
     for (int k = 0; k < s->n; k++) {
         const double d = (s->y[k] / theta - s->x[k]) * s->scale[k];
@@ -636,6 +662,9 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
     if (s.scale == NULL || s.of == NULL) {
         fault_memory(f, "modes");
     } else {
+        outcome = take_mass(&s, f);
+    }
+    if (outcome == STATUS_OK) {
         s.x = s.scale + n;
         s.y = s.x + n;
         measure(&s);
@@ -653,5 +682,8 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
     free(s.of);
     arnoldi_free(&s.right);
     arnoldi_free(&s.left);
+    free(s.M.column);
+    free(s.M.row);
+    free(s.M.value);
     return outcome;
 }

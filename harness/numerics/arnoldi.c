@@ -17,6 +17,11 @@ enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
  * eigenvalue, whose rounding error affects all eigenvalues. */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
                     acceptable_residual = 1e-5;
+/* Limit of the residual of a real eigenvalue that need not be accurate, and its ratio to the square
+ * of the relative distance to the nearest other one. Two real eigenvalues with this distance d can
+ * be a perturbed complex pair only if the perturbation, which is the residual, is of the order
+ * d^2/4. */
+static const double rough_residual = 1e-7, rough_part = 1e-4;
 /* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
 /* An orthogonalised vector counts as zero if its remainder, relative to its former length, is not
@@ -229,6 +234,19 @@ static void find_residuals(const solver *s)
         s->residual[i] = residual_of(s, i, chains, product);
 }
 
+static double residual_limit(const solver *s, int i)
+{
+    const double strict = good_residual + rounding_residual * size_of(s, 0) / size_of(s, i);
+    const int at = s->order[i];
+    double nearest = INFINITY;
+    if (!s->p->rough || s->im[at] != 0)
+        return strict;
+    for (int j = 0; j < s->count; j++)
+        if (j != at)
+            nearest = fmin(nearest, hypot(s->re[j] - s->re[at], s->im[j]) / size_of(s, i));
+    return fmax(strict, fmin(rough_residual, rough_part * nearest * nearest));
+}
+
 static int converged(solver *s, double *worst)
 {
     int good = 1;
@@ -236,7 +254,7 @@ static int converged(solver *s, double *worst)
     *worst = 0;
     for (int i = 0; i < s->found; i++) {
         *worst = fmax(*worst, s->residual[i]);
-        good &= s->residual[i] <= good_residual + rounding_residual * size_of(s, 0) / size_of(s, i);
+        good &= s->residual[i] <= residual_limit(s, i);
     }
     return good;
 }
@@ -338,8 +356,9 @@ static status store_results(solver *s, fault *f)
 
 static status find(solver *s, fault *f)
 {
-    int vectors = FIRST + s->p->wanted;
-    if (s->p->n <= vectors + s->p->wanted) {
+    const int wanted = s->p->wanted, rough = s->p->rough;
+    int vectors = FIRST + (rough ? wanted / 2 : wanted);
+    if (s->p->n <= FIRST + 2 * wanted) {
         span(s);
         TRY(find_pairs(s, f));
         return store_results(s, f);
@@ -353,7 +372,7 @@ static status find(solver *s, fault *f)
             return store_results(s, f);
         if (s->count == s->p->n)
             return store_results(s, f);
-        vectors = MORE + s->p->wanted / 2;
+        vectors = MORE + (rough ? 0 : wanted / 2);
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "modes may be missing, because start vector %d still yields new eigenvalues; "

@@ -208,6 +208,7 @@ typedef struct arnoldi_problem {
     void (*apply)(void *context, const double x[], double y[]); /* y = T x */
     void *context;
     int values_only; /* 1: the result contains neither modes nor residuals */
+    int rough;       /* 1: six digits of real eigenvalues that are not nearly equal are enough */
     /* For few coordinates, T is formed as a matrix. Then `left` receives the eigenvectors of the
      * transpose of T, if it is not NULL. */
     arnoldi_result *left;
