@@ -38,6 +38,22 @@ static void take_back(newton_run *n, const step_record *record)
     n->c->run->counters.rejected_steps++;
 }
 
+/* Returns 1 if a step from a stable to an unstable state has a correction larger than its first
+ * one. Newton's method may then have left the path for another solution. */
+static int may_have_left_path(const newton_run *n, const step_record *record)
+{
+    const solve_result *r = n->c->result;
+    const iteration_record *iteration = r->iteration + record->first;
+    const step_record *before = r->steps > 0 ? &r->step[r->steps - 1] : NULL;
+    if (record->negative_pivots <= 0 ||
+        (before != NULL && before->analysis == record->analysis && before->negative_pivots != 0))
+        return 0;
+    for (int i = 1; i < record->iterations; i++)
+        if (iteration[i].correction > iteration[0].correction)
+            return 1;
+    return 0;
+}
+
 static status walk_to(newton_run *n, double target, flutter_check *flutter, double *increment,
                       fault *f)
 {
@@ -63,7 +79,9 @@ static status walk_to(newton_run *n, double target, flutter_check *flutter, doub
             *increment = found - from;
             continue;
         }
-        if (outcome == STATUS_OK) {
+        const int shorten =
+            outcome == STATUS_OK && to - from > least && may_have_left_path(n, &record);
+        if (outcome == STATUS_OK && !shorten) {
             TRY(history_add_step(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
@@ -79,8 +97,8 @@ static status walk_to(newton_run *n, double target, flutter_check *flutter, doub
         }
         const int cannot_converge =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
-        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
-            cannot_converge) {
+        if (!shorten && (outcome == STATUS_FAULT || outcome == STATUS_REFUSED ||
+                         to - from <= least || cannot_converge)) {
             history_drop_step(n->c->result, &record);
             return outcome;
         }
