@@ -3,6 +3,7 @@
  * for rotations. */
 #include "harness/analysis/analysis_impl.h"
 
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
@@ -34,20 +35,31 @@ typedef struct modal_forms {
     int prestressed;
     /* G: geometric stiffness of the prestress; it has no values if there is no prestress */
     sparse M, G;
-    double shift; /* [1/s^2] shift that K of the system and its forms contain */
-    double *work; /* [free] */
+    double shift;   /* [1/s^2] shift that K of the system and its forms contain */
+    double *work;   /* [free] */
+    double *square; /* [modes] squares of circular frequencies, without the shift [1/s^2] */
 } modal_forms;
+
+static double form_without_shift(modal_forms *f, const double mode[])
+{
+    double sum = quadratic_forms_stiffness(&f->of, mode);
+    if (f->prestressed)
+        sum += quadratic_forms_geometric(&f->of, mode);
+    return sum;
+}
+
+static double mass_form(modal_forms *f, const double x[], const double y[])
+{
+    sparse_mul(&f->M, y, f->work);
+    return dense_dot(f->of.free, x, f->work);
+}
 
 static double stiffness_form(void *context, const double mode[])
 {
     modal_forms *f = context;
-    double sum = quadratic_forms_stiffness(&f->of, mode);
-    if (f->prestressed)
-        sum += quadratic_forms_geometric(&f->of, mode);
-    if (f->shift > 0) {
-        sparse_mul(&f->M, mode, f->work);
-        sum += f->shift * dense_dot(f->of.free, mode, f->work);
-    }
+    double sum = form_without_shift(f, mode);
+    if (f->shift > 0)
+        sum += f->shift * mass_form(f, mode, mode);
     return sum;
 }
 
@@ -75,12 +87,11 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-static double eigenvalue(modal_forms *about, double mu, const double mode[])
+/* Returns the square of the circular frequency, with the mass of the motions inside the elements.
+ */
+static double eigenvalue(modal_forms *about, double mu, double square, const double mode[])
 {
-    const double square = 1 / mu - about->shift;
-    if (square <= 1e-9 * about->shift)
-        return 0;
-    if (about->prestressed)
+    if (about->prestressed || square == 0)
         return square;
     memcpy(about->of.x, mode, (size_t)about->of.free * sizeof *mode);
     const double k = square * mu, b = rotating_frame_inner(about->of.eq->m, about->of.x);
@@ -100,10 +111,107 @@ static double inner_product(modal_forms *about, const double x[], const double y
     return (part[0] - part[1]) / 4;
 }
 
+/* Replaces the modes [count x n] by their combinations with the columns of C [count x count]. row:
+ * [count] work space. */
+static void combine(size_t n, size_t count, const double C[], double mode[], double row[])
+{
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < count; k++)
+            row[k] = mode[k * n + i];
+        for (size_t j = 0; j < count; j++)
+            mode[j * n + i] = dense_dot((int)count, row, C + j * count);
+    }
+}
+
+/* Replaces the modes [count x n], which the shift makes nearly equal and which may be any
+ * combinations of the true modes, by those that diagonalise K without the shift. Sets square[count]
+ * to their eigenvalues. */
+static status remove_shift_once(modal_forms *about, int count, double mode[], double square[],
+                                fault *f)
+{
+    const size_t n = (size_t)about->of.free, m = (size_t)count;
+    double *K = calloc(2 * m * m + m + n, sizeof *K), *M = K + m * m, *row = M + m * m,
+           *both = row + m;
+    if (K == NULL)
+        return fault_memory(f, "%zu modes", m);
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i <= j; i++) {
+            const double *x = mode + i * n, *y = mode + j * n;
+            double part[2];
+            for (int minus = 0; minus < 2 && i != j; minus++) {
+                for (size_t k = 0; k < n; k++)
+                    both[k] = x[k] + (minus ? -y[k] : y[k]);
+                part[minus] = form_without_shift(about, both);
+            }
+            K[j * m + i] = i == j ? form_without_shift(about, x) : (part[0] - part[1]) / 4;
+            M[j * m + i] = mass_form(about, x, y);
+        }
+    const int info =
+        LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', count, K, count, M, count, square);
+    if (info == 0)
+        combine(n, m, K, mode, row);
+    free(K);
+    return info == 0 ? STATUS_OK
+                     : fault_set(f, STATUS_NOT_CONVERGED,
+                                 "%d modes near zero were not separated (LAPACK returned %d); use "
+                                 "another number of elements",
+                                 count, info);
+}
+
+static void lose(eigen_side *side, int i)
+{
+    side->mu[i] = NAN;
+    side->status = STATUS_NOT_CONVERGED;
+    snprintf(
+        side->reason, sizeof side->reason,
+        "mode %d is lost in round-off, because the supports are much softer than the elements; "
+        "use fewer elements",
+        i + 1);
+}
+
+/* Sets the squares of the circular frequencies. With a shift, those that are not much larger than
+ * the shift are found again without it. Small squares are zero if the structure can move without
+ * deformation, and are otherwise lost in rounding errors. */
+static status find_squares(const analysis_context *c, modal_forms *about, eigen_side *side,
+                           fault *f)
+{
+    const double large = 1e3, rounding = 4 * DBL_EPSILON, digits = 10, zero_of_free = 1e-9;
+    const size_t n = (size_t)about->of.free;
+    double motion[6];
+    int node, count = 0;
+    about->square = calloc((size_t)side->count + 1, sizeof *about->square);
+    if (about->square == NULL)
+        return fault_memory(f, "%d modes", side->count);
+    for (int i = 0; i < side->count; i++) {
+        about->square[i] = 1 / side->mu[i] - about->shift;
+        count += count == i && about->square[i] <= large * about->shift;
+    }
+    if (about->shift == 0 || count == 0)
+        return STATUS_OK;
+    for (int pass = 0; pass < 2; pass++)
+        TRY(remove_shift_once(about, count, side->mode, about->square, f));
+    const int moves = supports_loose_part(c->model, &node, motion) ||
+                      singular_mechanism(c, STATUS_OK, NULL) != STATUS_OK;
+    for (int i = 0; i < count; i++) {
+        double *x = side->mode + (size_t)i * n, error = rounding * about->shift;
+        const int zero = about->square[i] <= (moves ? zero_of_free * about->shift : digits * error);
+        if (zero)
+            about->square[i] = 0;
+        else
+            side->error[i] += error / about->square[i];
+        side->mu[i] = 1 / (about->square[i] + about->shift);
+        for (size_t k = 0; k < n; k++)
+            x[k] *= sqrt(side->mu[i]);
+        if (zero && !moves)
+            lose(side, i);
+    }
+    return STATUS_OK;
+}
+
 /* Replaces the modes of an eigenvalue with this multiplicity, which may be any basis, by those for
  * which B is diagonal, because `eigenvalue` treats the modes one by one. */
-static status separate_equal(modal_forms *about, int multiplicity, double mu[], double mode[],
-                             fault *f)
+static status separate_equal(modal_forms *about, int multiplicity, double mu[], double square[],
+                             double mode[], fault *f)
 {
     const size_t n = (size_t)about->of.free, m = (size_t)multiplicity;
     double *B = calloc(m * m + 3 * m, sizeof *B), *b = B + m * m, *before = b + m,
@@ -115,16 +223,13 @@ static status separate_equal(modal_forms *about, int multiplicity, double mu[], 
         for (size_t i = 0; i <= j; i++)
             B[j * m + i] = inner_product(about, mode + i * n, mode + j * n);
     const int info = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', multiplicity, B, multiplicity, b);
-    for (size_t i = 0; info == 0 && i < n; i++) {
-        for (size_t k = 0; k < m; k++)
-            row[k] = mode[k * n + i];
-        for (size_t j = 0; j < m; j++)
-            mode[j * n + i] = dense_dot(multiplicity, row, B + j * m);
-    }
+    if (info == 0)
+        combine(n, m, B, mode, row);
     for (size_t j = 0; info == 0 && j < m; j++) {
         mu[j] = 0;
         for (size_t k = 0; k < m; k++)
             mu[j] += B[j * m + k] * B[j * m + k] * before[k];
+        square[j] = square[j] == 0 ? 0 : 1 / mu[j] - about->shift;
     }
     free(B);
     return STATUS_OK;
@@ -134,11 +239,12 @@ static status separate(modal_forms *about, eigen_side *side, fault *f)
 {
     const double equal = 1e-6;
     for (int first = 0, next; first < side->count && !about->prestressed; first = next) {
-        for (next = first + 1; next < side->count &&
-                               side->mu[next - 1] - side->mu[next] <= equal * side->mu[next - 1];)
+        const double *square = about->square;
+        for (next = first + 1;
+             next < side->count && square[next] - square[next - 1] <= equal * square[next];)
             next++;
         if (next - first > 1)
-            TRY(separate_equal(about, next - first, side->mu + first,
+            TRY(separate_equal(about, next - first, side->mu + first, about->square + first,
                                side->mode + (size_t)first * (size_t)about->of.free, f));
     }
     return STATUS_OK;
@@ -158,7 +264,8 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
 {
     const int n = about->of.free;
     for (int i = 0; i < side->count; i++) {
-        side->mu[i] = sqrt(eigenvalue(about, side->mu[i], side->mode + (size_t)i * (size_t)n));
+        side->mu[i] = sqrt(
+            eigenvalue(about, side->mu[i], about->square[i], side->mode + (size_t)i * (size_t)n));
         side->error[i] /= 2;
         for (int k = i; k > 0 && side->mu[k] < side->mu[k - 1]; k--) {
             swap(&side->mu[k - 1], &side->mu[k], 1);
@@ -288,9 +395,15 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     eigen_result e = {0};
     modal_forms about = {0};
     status result = solve(c, analysis, &s, &about, &e, f);
+    const status squares = find_squares(c, &about, &e.positive, f);
+    if (result == STATUS_OK)
+        result = squares;
+    if (result == STATUS_OK && e.positive.status != STATUS_OK)
+        result = fault_set(f, e.positive.status, "%s", e.positive.reason);
     if (result == STATUS_OK)
         result = separate(&about, &e.positive, f);
-    keep(&about, &e.positive, o);
+    if (about.square != NULL)
+        keep(&about, &e.positive, o);
     snprintf(o->left.spectrum.meaning, sizeof o->left.spectrum.meaning, "%s",
              flutter_damping(c->model, 0));
     if (about.prestressed && c->scene->analysis[analysis].follows == SCENE_NONE) {
@@ -303,5 +416,6 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     sparse_free_values(&about.M);
     sparse_free_values(&about.G);
     free(about.work);
+    free(about.square);
     return result;
 }

@@ -318,6 +318,17 @@ static status allocate(const analysis_context *c, linear_system *out, fault *f)
     return assemble_factor(c->run->patterns, pattern, &out->factor, f);
 }
 
+/* Returns 1 if a pivot is a rounding error, so its sign is arbitrary: a part is not supported, or
+ * the smallest pivot has no digits and some pivot is negative. */
+static int is_lost(const analysis_context *c, const factor_counts *counts)
+{
+    const double all_digits = 1e12;
+    double motion[6];
+    int node;
+    return counts->condition > all_digits &&
+           (counts->negative_pivots > 0 || supports_loose_part(c->model, &node, motion));
+}
+
 status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
 {
     const double start = clock_processor_seconds();
@@ -331,6 +342,10 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     const factor_counts counts = factor_count(out->factor);
     n->factorisations++;
     context_count_condition(c, out->factor, &out->K);
+    if (is_lost(c, &counts)) {
+        c->work->singular = 1;
+        return factor_report_singular(f);
+    }
     return counts.negative_pivots > 0
                ? fault_set(
                      f, STATUS_NOT_CONVERGED,

@@ -91,6 +91,15 @@ class Degenerate(ProgramTest):
                 self.assertEqual(found[:6], [0] * 6, formulation)
                 self.same(found[6::2], found[7::2], 1e-11, formulation, n)
 
+    def test_softer_than_rounding_of_fine_meshes(self):
+        spring = "springs: {k: {to: a, stiffness: [%s]}}"
+        for formulation in ("beamw", "collocation", "geometrically_exact"):
+            soft = [self.found(formulation, f"{FREE}, {tip()}", bar(), spring % ", ".join(["1e-2"] * 6), wanted=6, n=n) for n in (4, 500)]
+            self.same(soft[1][:6], soft[0][:6], 1e-3, formulation)
+            self.assertGreater(soft[1][0], 0, formulation)
+            for n in (250, 500):
+                self.assertEqual(self.found(formulation, f"{FREE}, {tip()}", bar(), n=n)[:6], [0] * 6, formulation)
+
     def test_nothing_has_mass(self):
         for nodes in (HELD, FREE):
             self.refused(2, "v: the structure has no mass; add a density or a mass to a section, or a mass to a node",
