@@ -67,12 +67,12 @@ static int find_order(const sparse *a, int copies, int order[])
     return good;
 }
 
-/* Returns 1 if column j belongs to the front of the previous column. The front then stores a few
- * zeros of the previous column. */
-static int joins(const elimination *e, int j)
+/* Returns 1 if column j belongs to the front of the previous column, which has `pivots` columns.
+ * The front then stores a few zeros in each of them. */
+static int joins(const elimination *e, int j, int pivots)
 {
-    const int zeros = j == 0 ? 0 : e->below[j] + 1 - e->below[j - 1];
-    return j > 0 && e->parent[j - 1] == j && 4 * zeros <= e->below[j] + 1;
+    const int zeros = e->below[j] + 1 - e->below[j - 1];
+    return e->parent[j - 1] == j && 4L * zeros * pivots <= e->below[j] + 1;
 }
 
 /* Sets the fronts, their sizes and the places of their values. Returns 0 if they would need much
@@ -83,9 +83,9 @@ static int find_fronts(fronts *t, elimination *e)
     t->count = 0;
     t->below_count = t->size = 0;
     for (int j = 0; j < t->n; j++) {
-        e->front_of[j] = joins(e, j) ? t->count - 1 : t->count++;
-        if (!joins(e, j))
-            t->front[t->count - 1] = (front){.first = j};
+        if (j == 0 || !joins(e, j, t->front[t->count - 1].pivots))
+            t->front[t->count++] = (front){.first = j};
+        e->front_of[j] = t->count - 1;
         t->front[t->count - 1].pivots++;
         most += 8 * (2 * (size_t)e->below[j] + 1);
     }
