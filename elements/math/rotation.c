@@ -158,6 +158,19 @@ void arc_at(const double rotation[3], const double e[3], double x, double r[3], 
     rotation_exp(part, q);
 }
 
+void arc_to(const double rotation[3], const double r[3], double e[3])
+{
+    const double half = vec3_norm(rotation) / 2, square = 4 * half * half;
+    /* (1 - h cot h)/(2 h)^2: the next term of the series, (2 h)^4/30240, is below eps/4 */
+    const double c =
+        half < 1e-3 ? 1.0 / 12 + square / 720 : (1 - half * cos(half) / sin(half)) / square;
+    double once[3], twice[3];
+    vec3_cross(rotation, r, once);
+    vec3_cross(rotation, once, twice);
+    for (int i = 0; i < 3; i++)
+        e[i] = r[i] - once[i] / 2 + c * twice[i];
+}
+
 void offset_force(const double rho[3], double force[6])
 {
     double moment[3];

@@ -42,6 +42,8 @@ int rotation_triad(const double x[3], const double y[3], double R[9]);
  * start of the arc, q = exp(x rotation~) and r = int_0^x exp(t rotation~) e dt for 0 <= x <= 1. e
  * is the direction of the axis in the rotating triad, (1, 0, 0) if there are no initial strains. */
 void arc_at(const double rotation[3], const double e[3], double x, double r[3], double q[4]);
+/* Computes e from r = arc_at(rotation, e, 1), for |rotation| below a full turn. */
+void arc_to(const double rotation[3], const double r[3], double e[3]);
 /* Computes r of arc_at minus x e, the value of r without rotation. */
 void arc_beyond(const double rotation[3], const double e[3], double x, double r[3]);
 

@@ -282,6 +282,11 @@ static void compare(double angle, double x)
             for (int k = 0; k < 4; k++)
                 turned = fmax(turned, fabs(q[k] - right[k]));
             gsl_test(!(turned < 1e-15), "%g rad, at %g: orientation off by %.1e", angle, x, turned);
+            double back[3], away = 0;
+            arc_to(part, r, back);
+            for (int k = 0; k < 3; k++)
+                away = fmax(away, fabs(back[k] - x * along[k]));
+            gsl_test(!(away < 2e-15 * x), "%g rad, to %g: direction off by %.1e", angle, x, away);
         }
 }
 

@@ -160,21 +160,30 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
     }
 }
 
-/* Extrapolates a rotation. The rotation vectors of all states are relative to the last
- * orientation. */
-static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
-                                 const model_state *const at[], model_state *out)
+/* Extrapolates a rotation, and with `moves` also a displacement along arcs, like advance_state. The
+ * rotation vectors and arcs of all states are relative to the last state. */
+static void extrapolate_motion(const model *m, int vertex, int moves, int count,
+                               const double weight[], const model_state *const at[],
+                               model_state *out)
 {
     const model_state *last = at[count - 1];
-    double turn[3] = {0}, step[4];
+    double turn[3] = {0}, direction[3] = {0}, step[4], arc[3];
     for (int i = 0; i + 1 < count; i++) {
-        double back[3];
+        double back[3], moved[3], along[3] = {0};
         rotation_between(&last->q[4 * vertex], &at[i]->q[4 * vertex], back);
         for (int c = 0; c < 3; c++)
+            moved[c] = at[i]->u[3 * vertex + c] - last->u[3 * vertex + c];
+        if (moves)
+            arc_to(back, moved, along);
+        for (int c = 0; c < 3; c++) {
             turn[c] += weight[i] * back[c];
+            direction[c] += weight[i] * along[c];
+        }
     }
     prescribe(m, model_vertex(m, vertex), last, out, turn);
-    rotation_exp(turn, step);
+    arc_at(turn, direction, 1, arc, step);
+    for (int c = 0; moves && c < 3; c++)
+        out->u[3 * vertex + c] = last->u[3 * vertex + c] + arc[c];
     rotation_compose(step, &last->q[4 * vertex], &out->q[4 * vertex]);
     rotation_normalise(&out->q[4 * vertex]);
 }
@@ -283,13 +292,14 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];
+    const int on_arcs = advance_on_arcs(eq);
     const size_t before = (size_t)(out->history - out->block),
                  after = before + (size_t)model_elements(m) * (size_t)model_history(m);
     weighted_sum(count, weight, at, 0, before, out);
     weighted_sum(count, weight, at, after, out->size, out);
     for (int v = 0; v < model_vertices(m); v++)
         if (turns_by_itself(m, v))
-            extrapolate_rotation(m, v, count, weight, at, out);
+            extrapolate_motion(m, v, on_arcs && advance_is_free(m, v), count, weight, at, out);
     memcpy(out->turn, at[count - 1]->turn, 3 * (size_t)model_turns(m) * sizeof *out->turn);
     kinematics_follow(m, out);
     return 1;

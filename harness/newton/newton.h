@@ -123,6 +123,15 @@ typedef struct advance_stress {
  * defines). */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
+/* Returns 1 if no constraint acts on the translations of a vertex. */
+int advance_is_free(const model *, int vertex);
+/* Returns 1 if increments move free vertices along arcs of screw motions, not along straight lines.
+ * Conditions: a static state with prescribed motions, a free body with rigid arms, and no hinges.
+ * The ends of arms move along arcs; if the next vertex moved along a line, the strain of the
+ * element between them would be inversely proportional to its length. At a hinge, both sides move
+ * along different arcs. Under loads, increments of rotations may be far too large, and lines need
+ * fewer iterations. */
+int advance_on_arcs(const equations *);
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
 typedef struct applied {

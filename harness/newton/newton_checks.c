@@ -106,7 +106,36 @@ static double advance_element(const model *m, const linear_memory *memory, model
                                  &s->inner[(size_t)i * (size_t)model_inner(m)]);
 }
 
-static double advance_vertex(const model *m, model_state *s, int index, const double dx[])
+int advance_is_free(const model *m, int index)
+{
+    const mesh_vertex *v = model_vertex(m, index);
+    const int node = index < model_scene(m)->nodes;
+    if (v->body != index || v->angles > 0 || v->led || (node && v->leader != NONE))
+        return 0;
+    for (int c = SCENE_UX; c <= SCENE_UZ; c++)
+        if (c != scene_normal(model_scene(m)) &&
+            (v->coordinate[c] == NONE || v->coordinate[c] >= model_unknowns(m) ||
+             (node && model_tie(m, index, c) != NULL)))
+            return 0;
+    return 1;
+}
+
+int advance_on_arcs(const equations *eq)
+{
+    const model *m = eq->m;
+    if (eq->loading.in_time || model_driven(m) == 0 || model_first_release(m) < model_vertices(m))
+        return 0;
+    for (int i = 0; i < model_elements(m); i++)
+        for (int k = 0; k < model_element(m, i)->nodes; k++) {
+            const int vertex = model_element(m, i)->vertex[k], body = model_vertex(m, vertex)->body;
+            if (body != vertex && advance_is_free(m, body))
+                return 1;
+        }
+    return 0;
+}
+
+static double advance_vertex(const model *m, model_state *s, int index, int on_arcs,
+                             const double dx[])
 {
     const mesh_vertex *v = model_vertex(m, index);
     double d[6], q[4], largest = 0;
@@ -119,10 +148,16 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
         for (int c = 0; c < 3; c++)
             d[c] += by[c];
     }
+    for (int c = 0; c < 3; c++)
+        largest = larger(largest, larger(fabs(d[c]) / model_length(m), fabs(d[3 + c])));
+    if (on_arcs && advance_is_free(m, index)) {
+        double arc[3];
+        arc_at(d + 3, d, 1, arc, q);
+        memcpy(d, arc, sizeof arc);
+    }
     for (int c = 0; c < 3; c++) {
         s->u[3 * index + c] += d[c];
         s->angle[3 * index + c] += d[3 + c];
-        largest = larger(largest, larger(fabs(d[c]) / model_length(m), fabs(d[3 + c])));
     }
     if (v->angles == 0) {
         rotation_exp(d + 3, q);
@@ -136,6 +171,7 @@ double advance_state(const equations *eq, const linear_memory *memory, model_sta
                      const double dx[], double path, advance_stress *stress)
 {
     const model *m = eq->m;
+    const int on_arcs = advance_on_arcs(eq);
     double largest = 0;
     advance_stress of_elements = {0, 0};
     for (int i = 0; i < model_elements(m); i++)
@@ -145,7 +181,7 @@ double advance_state(const equations *eq, const linear_memory *memory, model_sta
     phases_lap(&eq->run->phases, PHASE_ELEMENTS);
     for (int i = 0; i < model_vertices(m); i++)
         if (model_vertex(m, i)->body == i)
-            largest = larger(largest, advance_vertex(m, s, i, dx));
+            largest = larger(largest, advance_vertex(m, s, i, on_arcs, dx));
     for (int i = model_first_release(m); i < model_vertices(m); i++)
         largest = larger(largest, release_advance(m, s, i, dx));
     for (int i = 0; i < model_warps(m); i++) {

@@ -299,6 +299,90 @@ static void corrections(const element_type *type)
     scene_free(&s);
 }
 
+static double strain_of(const equations *eq, model_state *s)
+{
+    double worst = 0;
+    fault f = {""};
+    gsl_test(linearise_make_compatible(eq, s, &f) != STATUS_OK, "turned: %s", f.text);
+    for (int k = 0; k < model_elements(eq->m) * model_strains(eq->m); k++)
+        worst = fmax(worst, fabs(s->e[k]));
+    return worst;
+}
+
+static int driven_member(const element_type *type, scene *s, model **m)
+{
+    static const char *const name[3] = {"x", "y", "z"};
+    static const double station[2] = {0, 4}, angle[2] = {0, 1};
+    const double y[3] = {0, 1, 0};
+    fault f = {""};
+    section_spec spec = section_spec_rectangle(1e4, 4e3, 0.2, 0.05);
+    scene_init(s, "driven");
+    const int p = scene_add_node(s, 0, 0, 0), body = scene_add_node(s, 60, -90, 30),
+              q = scene_add_attached(s, body, length, 0, 0);
+    scene_node_at(s, body)->rotation = SCENE_ROTATION_VECTOR;
+    for (int c = 0; c < 3; c++)
+        scene_node_at(s, body)->angle[c] = scene_add_driver(s, name[c], 2, station, angle);
+    scene_add_member(s, p, q, scene_add_section(s, &spec), y);
+    scene_add_static(s, 1, station + 1, 1);
+    const model_request request = {s, type, NULL, 3, 0, 0};
+    const status made = model_alloc(&request, m, &f);
+    gsl_test(made != STATUS_OK, "%s: %s", type->name, f.text);
+    return made == STATUS_OK;
+}
+
+/* Moves all vertices as one rigid body, by an increment and by an extrapolation. */
+static void move_rigidly(const equations *eq, const double dx[], model_state *state[3])
+{
+    const model *m = eq->m;
+    double *residual = calloc((size_t)model_all_coordinates(m), sizeof *residual);
+    fault f = {""};
+    model_linearisation lin = {.residual = residual};
+    const model_state *const last[] = {state[0], state[1]};
+    gsl_test(linearise_state(eq, &eq->run->memory, state[1], &lin, &f) != STATUS_OK, "at rest: %s",
+             f.text);
+    advance_state(eq, &eq->run->memory, state[1], dx, 1, NULL);
+    gsl_test(!extrapolate_state(eq, 2, last, 2, state[2]), "extrapolated");
+    for (int i = 1; i < 3; i++) {
+        const double strain = strain_of(eq, state[i]);
+        gsl_test(!(strain < 1e-13), "%s: a rigid motion strains by %.1e", model_type(m)->name,
+                 strain);
+    }
+    free(residual);
+}
+
+static void rigid_motion(const element_type *type)
+{
+    static const double turn[3] = {0.5, -0.7, 0.9}, shift[3] = {0.3, -0.2, 0.4};
+    scene s;
+    model *m = NULL;
+    model_state *state[3];
+    run_state run;
+    fault f = {""};
+    if (driven_member(type, &s, &m) && run_state_begin(&run, m, 1, &f) == STATUS_OK) {
+        const equations eq = {.m = m, .run = &run};
+        double *dx = calloc((size_t)model_all_coordinates(m), sizeof *dx);
+        for (int i = 0; i < 3; i++)
+            gsl_test(kinematics_state_alloc(m, &state[i], &f) != STATUS_OK, "%s", f.text);
+        for (int v = 0; v < model_vertices(m); v++) {
+            double along[3];
+            if (model_vertex(m, v)->body != v)
+                continue;
+            vec3_cross(turn, model_vertex(m, v)->position, along);
+            for (int c = 0; c < 3; c++) {
+                dx[model_vertex(m, v)->coordinate[c]] = along[c] + shift[c];
+                dx[model_vertex(m, v)->coordinate[3 + c]] = turn[c];
+            }
+        }
+        move_rigidly(&eq, dx, state);
+        for (int i = 0; i < 3; i++)
+            kinematics_state_free(state[i]);
+        free(dx);
+        run_state_end(&run);
+    }
+    model_free(m);
+    scene_free(&s);
+}
+
 static void loose_about_the_far_end(const element_type *type)
 {
     scene s;
@@ -321,8 +405,10 @@ static void loose_about_the_far_end(const element_type *type)
 
 static void advance_tests(void)
 {
-    for (int i = 0; registry_formulations[i] != NULL; i++)
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
         corrections(registry_formulations[i]);
+        rigid_motion(registry_formulations[i]);
+    }
     loose_about_the_far_end(registry_formulations[0]);
 }
 
